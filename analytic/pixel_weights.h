@@ -1,0 +1,54 @@
+// The closed-form prefilter weights of the owners around samples: visible segments in, one weight an owner out.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "analytic/prefilter.h"
+#include "analytic/visible_segment.h"
+
+namespace edgewise {
+
+/// A weight in fixed point, 2^-60 a unit: sums are exact in any order.
+using FixedWeight = std::int64_t;
+inline constexpr int kWeightBits = 60;
+
+struct OwnerWeight {
+    Owner owner;
+    FixedWeight weight;
+};
+
+/// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a support,
+/// finish().  The result does not depend on the order of add(), nor on which samples share a call.
+class PixelWeights {
+  public:
+    static constexpr int kLanes = 8;
+
+    explicit PixelWeights(const Prefilter& filter);
+    ~PixelWeights();
+    PixelWeights(const PixelWeights&) = delete;
+    PixelWeights& operator=(const PixelWeights&) = delete;
+
+    void begin(glm::dvec2 first_sample_px, int count);
+
+    /// `left` and `right` replace the segment's owners (the caller may merge owners that shade alike).
+    void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
+
+    /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is asked only when
+    /// nothing crosses that border.  Writes sample i's owners in ascending order to out[offset[i]..offset[i + 1]);
+    /// owners of weight exactly 0 are left out; the weights of a sample sum to exactly 2^60.
+    void finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset);
+
+    /// Terms evaluated since construction: (segment, sample) pairs whose support meets the segment.
+    std::uint64_t terms() const;
+    /// Border labels of neighbouring crossings that disagreed by more than rounding explains: 0 on a closed map.
+    std::uint64_t label_conflicts() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace edgewise

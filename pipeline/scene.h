@@ -1,0 +1,92 @@
+// A scene as plain data: what load_gltf makes and every later stage reads. World space, right-handed, +y up.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace edgewise {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// 8-bit or float texels decoded to linear RGBA doubles on access; row 0 is the top row.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<glm::vec4> texels;  ///< linear Rec.709, straight alpha
+    std::string name;
+};
+
+enum class Wrap { kRepeat, kMirroredRepeat, kClampToEdge };
+enum class TexelFilter { kNearest, kLinear };
+
+struct Texture {
+    std::uint32_t image = kNone;
+    Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+    TexelFilter mag = TexelFilter::kLinear, min = TexelFilter::kLinear;
+    std::optional<TexelFilter> mip = TexelFilter::kLinear;  ///< none: level 0 only
+};
+
+struct Material {
+    std::string name;
+    glm::dvec4 base_color{1.0};
+    std::uint32_t base_color_texture = kNone;  ///< into Scene::textures
+    int base_color_uv = 0;
+    bool unlit = false;
+    bool double_sided = false;
+};
+
+/// Vertex attributes of one primitive of one node, already in world space. Absent attributes are empty.
+struct Geometry {
+    std::vector<glm::vec3> position_file;    ///< as in the file, before the node's transform
+    std::vector<glm::dvec3> position_world;
+    std::vector<glm::dvec3> normal_world;    ///< not normalised; empty: flat normals
+    std::array<std::vector<glm::dvec2>, 2> uv;
+    std::vector<glm::dvec4> color;           ///< COLOR_0, linear
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< winding already flipped under negative scale
+    std::uint32_t material = 0;              ///< into Scene::materials
+    std::uint32_t node = 0, mesh = 0, primitive = 0;  ///< the file's indices
+    std::uint32_t first_triangle = 0;        ///< contract index of triangles[0]
+};
+
+struct Camera {
+    std::string name;
+    std::uint32_t node = kNone;
+    glm::dmat4 world_from_camera{1.0};  ///< rigid: looks down -z, +y up
+    bool perspective = true;
+    double yfov = 0.0;            ///< radians; perspective
+    double xmag = 0.0, ymag = 0.0;  ///< half extents; orthographic
+    std::optional<double> aspect;
+    double znear = 0.0;
+    std::optional<double> zfar;  ///< none: infinite
+};
+
+/// One warning the user sees once: what the file uses and edgewise ignores.
+struct Ignored {
+    std::string what;
+    std::size_t count = 0;
+};
+
+struct Scene {
+    std::string source;  ///< file or name, as the user gave it
+    std::vector<Geometry> geometry;  ///< in index order: depth-first nodes, their mesh's primitives
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<Image> images;
+    std::vector<Camera> cameras;  ///< camera nodes in depth-first order
+    std::vector<std::string> node_names, mesh_names;
+    std::vector<Ignored> ignored;
+    std::size_t triangle_count = 0;
+    glm::dvec3 bounds_min{0.0}, bounds_max{0.0};
+};
+
+/// Where triangle `index` of the scene lives.
+struct TriangleRef {
+    std::uint32_t geometry;
+    std::uint32_t triangle;
+};
+
+}  // namespace edgewise
