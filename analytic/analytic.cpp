@@ -1,0 +1,1 @@
+#include "analytic/pixel_weights.h"
