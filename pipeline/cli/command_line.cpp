@@ -12,7 +12,7 @@ std::string quote(std::string_view argument) {
     if (!argument.empty() && argument.find_first_not_of(kPlainCharacters) == std::string_view::npos)
         return std::string(argument);
     std::string quoted = "'";
-    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    for (const char c : argument) quoted.append(c == '\'' ? "'\\''" : std::string(1, c));
     return quoted + "'";
 }
 
@@ -20,7 +20,7 @@ std::string quote(std::string_view argument) {
 
 std::string quoteCommandLine(std::span<char* const> arguments) {
     std::string text = "edgewise";
-    for (const char* argument : arguments) text += " " + quote(argument);
+    for (const char* argument : arguments) text.append(1, ' ').append(quote(argument));
     return text;
 }
 
