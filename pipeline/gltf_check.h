@@ -1,0 +1,33 @@
+// The checks a glTF passes before any library reads it: schema, references, ranges, hierarchy.
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/gltf_element.h"
+
+namespace edgewise {
+
+struct GltfDocument;
+
+/// More vertices than this without stored bytes (a sparse accessor without a buffer view) are refused.
+inline constexpr std::uint64_t kMaxUnbackedElements = std::uint64_t(1) << 24;
+
+/// Checks a document against everything later stages rely on; stops at the first problem, an InputError.
+/// Whole numbers written as 3.0 become 3 in the document.
+void checkGltf(GltfDocument& document);
+
+/// Bytes of one component (5120 BYTE ... 5126 FLOAT).
+std::uint64_t componentBytes(std::uint64_t component_type);
+
+/// How many elements each section of the file has: what references may point to.
+struct GltfCounts {
+    std::size_t accessors, buffers, buffer_views, cameras, images, materials, meshes, nodes, samplers, scenes,
+        skins, textures;
+};
+
+/// The parts of checkGltf, each in a file of its own.
+void checkData(const GltfElement& root, const GltfCounts& counts, const GltfDocument& document);
+void checkSurfaces(const GltfElement& root, const GltfCounts& counts, const GltfDocument& document);
+void checkHierarchy(const GltfElement& root, const GltfCounts& counts);
+
+}  // namespace edgewise
