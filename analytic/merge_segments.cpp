@@ -11,13 +11,6 @@ bool before(const FinePoint& p, const FinePoint& q) {
     return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) < std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
 }
 
-bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q) {
-    if (p.key != q.key) return p.key < q.key;
-    if (before(p.a, q.a)) return true;
-    if (before(q.a, p.a)) return false;
-    return std::tie(p.left, p.right) < std::tie(q.left, q.right);
-}
-
 bool joins(const SegmentPiece& p, const SegmentPiece& q) {
     if (p.key != q.key || p.left != q.left || p.right != q.right) return false;
     const bool same_y = p.b.grid.y == q.a.grid.y && p.b.rest.y == q.a.rest.y;
@@ -37,8 +30,14 @@ bool sameLine(const ScreenScene& scene, LineRef p, LineRef q) {
 
 }  // namespace
 
-void mergeSegments(const ScreenScene& scene, std::vector<SegmentPiece>& pieces, VisibleMap& map) {
-    std::sort(pieces.begin(), pieces.end(), pieceBefore);
+bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q) {
+    if (p.key != q.key) return p.key < q.key;
+    if (before(p.a, q.a)) return true;
+    if (before(q.a, p.a)) return false;
+    return std::tie(p.left, p.right) < std::tie(q.left, q.right);
+}
+
+void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map) {
     map.lines.clear(), map.segments.clear();
     LineRef last{};
     for (std::size_t i = 0; i < pieces.size();) {

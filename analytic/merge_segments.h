@@ -2,14 +2,17 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "analytic/cell.h"
 
 namespace edgewise {
 
-/// Joins pieces of the same line and owners that share an end. Sorts `pieces`.
-/// Gives lines and segments in an order that does not depend on how the pieces came.
-void mergeSegments(const ScreenScene& scene, std::vector<SegmentPiece>& pieces, VisibleMap& map);
+/// By line, then along it: an order that does not depend on how the pieces came.
+bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q);
+
+/// Joins pieces of the same line and owners that share an end; `pieces` sorted by pieceBefore.
+void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map);
 
 /// Rows row_begin..row_end from row pieces in any order: neighbours of one owner are joined.
 void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, VisibleMap& map);

@@ -36,7 +36,8 @@ VisibleMap visibleMap(const ScreenScene& scene, const Window& window, const Visi
         for (int x = cells.x0; x < cells.x1; x += kCellPx)
             visibility.run(scene, {{x, y}, {x + kCellPx, y + kCellPx}}, all, options, out);
     VisibleMap map;
-    mergeSegments(scene, out.segments, map);
+    std::sort(out.segments.begin(), out.segments.end(), pieceBefore);
+    mergeSorted(scene, out.segments, map);
     mergeRows(out.rows, cells.y0, cells.y1, map);
     if (counts) counts->add(out.counts);
     return map;

@@ -1,0 +1,65 @@
+#include "pipeline/visibility.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include "pipeline/error.h"
+
+namespace edgewise {
+namespace {
+
+struct Worker {
+    CellVisibility cells;
+    CellOutput out;
+};
+
+void emptyRows(const Cell& cell, std::vector<RowPiece>& rows) {
+    for (int row = static_cast<int>(cell.min.y); row < static_cast<int>(cell.max.y); ++row)
+        rows.push_back({row, kBackground, cell.min.x + kBorderRestPx});
+}
+
+template <class Item>
+std::vector<Item> concatenate(tbb::enumerable_thread_specific<Worker>& workers, std::vector<Item> CellOutput::*part) {
+    std::size_t size = 0;
+    for (Worker& w : workers) size += (w.out.*part).size();
+    std::vector<Item> all;
+    all.reserve(size);
+    for (Worker& w : workers) {
+        all.insert(all.end(), (w.out.*part).begin(), (w.out.*part).end());
+        std::vector<Item>().swap(w.out.*part);
+    }
+    return all;
+}
+
+}  // namespace
+
+VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLists& lists,
+                      const VisibilityStageOptions& options, Progress& progress, VisibilityCounts& counts) {
+    tbb::enumerable_thread_specific<Worker> workers;
+    progress.stage("visibility", grid.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.size(), 4), [&](const auto& range) {
+        if (progress.cancelled()) throw Interrupted();
+        Worker& worker = workers.local();
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const auto ids = std::span(lists.ids).subspan(lists.offsets[i], lists.offsets[i + 1] - lists.offsets[i]);
+            if (ids.empty() && options.skip_empty)
+                emptyRows(grid.cell(i), worker.out.rows);
+            else
+                worker.cells.run(scene, grid.cell(i), ids, options.cell, worker.out);
+        }
+        progress.advance(range.size());
+    });
+    for (Worker& w : workers) counts.add(w.out.counts);
+    VisibleMap map;
+    {
+        std::vector<SegmentPiece> pieces = concatenate(workers, &CellOutput::segments);
+        tbb::parallel_sort(pieces.begin(), pieces.end(), pieceBefore);
+        mergeSorted(scene, pieces, map);
+    }
+    mergeRows(concatenate(workers, &CellOutput::rows), grid.px.y0, grid.px.y1, map);
+    return map;
+}
+
+}  // namespace edgewise

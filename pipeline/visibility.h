@@ -1,0 +1,19 @@
+// Visibility: triangle lists of cells become the visible map, on all threads.
+#pragma once
+
+#include "pipeline/cell_grid.h"
+#include "pipeline/progress.h"
+#include "pipeline/scan.h"
+
+namespace edgewise {
+
+struct VisibilityStageOptions {
+    VisibilityOptions cell;
+    bool skip_empty = true;  ///< a cell without triangles is the background's, and nothing is swept
+};
+
+/// The map of the grid's cells. Bit-identical for any number of threads. Throws Interrupted when cancelled.
+VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLists& lists,
+                      const VisibilityStageOptions& options, Progress& progress, VisibilityCounts& counts);
+
+}  // namespace edgewise

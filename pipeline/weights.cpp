@@ -1,0 +1,161 @@
+#include "pipeline/weights.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace edgewise {
+namespace {
+
+glm::dvec2 rounded(const FinePoint& p) { return p.grid + p.rest; }
+
+/// The part of a -> b within [y0, y1] spans these abscissae; empty: x0 > x1. Widened by what rounding may lose.
+std::pair<double, double> spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, double y1) {
+    if (a.y > y1 || b.y < y0) return {1.0, 0.0};
+    double xa = a.x, xb = b.x;
+    const double height = b.y - a.y;
+    if (height > 0.0) {
+        const double slope = (b.x - a.x) / height;
+        if (a.y < y0) xa = a.x + slope * (y0 - a.y);
+        if (b.y > y1) xb = a.x + slope * (y1 - a.y);
+    }
+    const double low = std::min(a.x, b.x), high = std::max(a.x, b.x);
+    return {std::max(low, std::min(xa, xb)) - kGridPx, std::min(high, std::max(xa, xb)) + kGridPx};
+}
+
+/// The lattice of weight tiles over a box of pixels.
+struct TileLattice {
+    PixelBox box;
+    int columns, rows;
+
+    explicit TileLattice(const PixelBox& pixels) : box(pixels) {
+        columns = (box.width() + kWeightTilePx - 1) / kWeightTilePx;
+        rows = (box.height() + kWeightTilePx - 1) / kWeightTilePx;
+    }
+    PixelBox tile(int column, int row) const {
+        const int x = box.x0 + column * kWeightTilePx, y = box.y0 + row * kWeightTilePx;
+        return {x, y, std::min(x + kWeightTilePx, box.x1), std::min(y + kWeightTilePx, box.y1)};
+    }
+    /// Tiles whose samples lie within [low, high], clamped; first > last: none.
+    static std::pair<int, int> range(double low, double high, int origin, int count) {
+        const double first = std::floor((low - 0.5 - origin) / kWeightTilePx);
+        const double last = std::floor((high - 0.5 - origin) / kWeightTilePx);
+        if (last < 0.0 || first >= count) return {0, -1};
+        return {static_cast<int>(std::max(0.0, first)), static_cast<int>(std::min(count - 1.0, last))};
+    }
+};
+
+template <class Visit>
+void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 offset_px, double radius, Visit&& visit) {
+    const glm::dvec2 a = rounded(s.a) - offset_px, b = rounded(s.b) - offset_px;
+    const double reach = radius + kGridPx;
+    const auto [r0, r1] = TileLattice::range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
+    for (int row = r0; row <= r1; ++row) {
+        const double y0 = lattice.box.y0 + row * kWeightTilePx;
+        const auto [x0, x1] = spanWithin(a, b, y0 - reach, y0 + kWeightTilePx + reach);
+        const auto [c0, c1] = TileLattice::range(x0 - reach, x1 + reach, lattice.box.x0, lattice.columns);
+        for (int column = c0; column <= c1; ++column)
+            visit(static_cast<std::size_t>(row) * lattice.columns + static_cast<std::size_t>(column));
+    }
+}
+
+/// Owners of the points (x + k, row), k = 0 .. count - 1, just right of them.
+void ownersAlongRow(const VisibleMap& map, int row, double x, int count, const OwnerClasses& classes, Owner* out) {
+    const auto index = static_cast<std::size_t>(row - map.row_begin);
+    const auto begin = map.rows.begin() + static_cast<std::ptrdiff_t>(map.row_offset[index]);
+    const auto end = map.rows.begin() + static_cast<std::ptrdiff_t>(map.row_offset[index + 1]);
+    auto next = std::upper_bound(begin, end, x, [](double v, const RowOwner& entry) { return v < entry.x_px; });
+    for (int k = 0; k < count; ++k) {
+        while (next != end && next->x_px <= x + k) ++next;
+        out[k] = classes.of(next == begin ? begin->owner : std::prev(next)->owner);
+    }
+}
+
+}  // namespace
+
+WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius) {
+    const TileLattice lattice(box);
+    WeightTiles tiles;
+    for (int row = 0; row < lattice.rows; ++row)
+        for (int column = 0; column < lattice.columns; ++column) tiles.boxes.push_back(lattice.tile(column, row));
+    std::vector<std::atomic<std::uint32_t>> histogram(tiles.boxes.size());
+    const auto forSegments = [&](auto&& visit) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.segments.size(), 1024), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                forTilesOf(map.segments[i], lattice, offset_px, radius, [&](std::size_t tile) { visit(tile, i); });
+        });
+    };
+    forSegments([&](std::size_t tile, std::size_t) { histogram[tile].fetch_add(1, std::memory_order_relaxed); });
+    std::vector<std::uint32_t> counts(histogram.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = histogram[i].exchange(0, std::memory_order_relaxed);
+    tiles.segments.offsets = offsetsFromCounts(counts);
+    tiles.segments.ids.resize(tiles.segments.offsets.back());
+    forSegments([&](std::size_t tile, std::size_t i) {
+        const std::size_t slot = histogram[tile].fetch_add(1, std::memory_order_relaxed);
+        tiles.segments.ids[tiles.segments.offsets[tile] + slot] = static_cast<std::uint32_t>(i);
+    });
+    return tiles;
+}
+
+WeightWorker::WeightWorker(const Prefilter& filter, const WeightOptions& options)
+    : radius_(filter.radius), options_(options), weights_(filter) {}
+
+void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
+                              const OwnerClasses& classes, double y) {
+    row_.clear();
+    const double reach = radius_ + kGridPx;
+    for (const std::uint32_t id : segments) {
+        const VisibleSegment& s = map.segments[id];
+        const glm::dvec2 a = rounded(s.a), b = rounded(s.b);
+        if (a.y > y + reach || b.y < y - reach) continue;
+        const Owner left = classes.of(s.left), right = classes.of(s.right);
+        if (left == right && options_.skip_cancelling) continue;
+        const auto [x0, x1] = spanWithin(a, b, y - reach, y + reach);
+        row_.push_back({id, left, right, x0 - reach, x1 + reach});
+    }
+}
+
+void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out) {
+    bool begun = false;
+    for (const Span& span : row_) {
+        if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
+        if (!begun) weights_.begin(first, count), begun = true;
+        const VisibleSegment& s = map.segments[span.segment];
+        weights_.add(s, map.lines[s.line], span.left, span.right);
+    }
+    if (!begun && options_.skip_interior) {
+        interior_pixels_ += static_cast<std::uint64_t>(count);
+        for (int k = 0; k < count; ++k) {
+            out.entries.push_back({base[k], FixedWeight{1} << kWeightBits});
+            out.offset.push_back(out.entries.size());
+        }
+        return;
+    }
+    if (!begun) weights_.begin(first, count);
+    std::size_t offset[PixelWeights::kLanes + 1];
+    weights_.finish(base, out.entries, offset);
+    for (int k = 0; k < count; ++k) out.offset.push_back(offset[k + 1]);
+}
+
+void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
+                       const PixelBox& box, glm::dvec2 offset_px, WeightTile& out) {
+    out.box = box;
+    out.offset.assign(1, 0);
+    out.entries.clear();
+    Owner base[PixelWeights::kLanes];
+    for (int y = box.y0; y < box.y1; ++y) {
+        const double sample_y = y + 0.5 + offset_px.y;
+        collectRow(map, segments, classes, sample_y);
+        for (int x = box.x0; x < box.x1; x += PixelWeights::kLanes) {
+            const int count = std::min(PixelWeights::kLanes, box.x1 - x);
+            const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
+            ownersAlongRow(map, y + static_cast<int>(offset_px.y), first.x + radius_, count, classes, base);
+            runGroup(map, first, count, base, out);
+        }
+    }
+}
+
+}  // namespace edgewise

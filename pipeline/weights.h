@@ -1,0 +1,71 @@
+// Weights: the visible map and a prefilter become, for every pixel, the weight of each owner (NSAA section 3.2).
+#pragma once
+
+#include <vector>
+
+#include "analytic/pixel_weights.h"
+#include "pipeline/film.h"
+#include "pipeline/scan.h"
+
+namespace edgewise {
+
+/// Owners that shade alike are one: representative[owner]. Empty: every owner stands for itself.
+struct OwnerClasses {
+    std::vector<Owner> representative;
+    Owner of(Owner owner) const {
+        return owner == kBackground || representative.empty() ? owner : representative[owner];
+    }
+};
+
+/// Owner weights of the pixels of one box, pixel by pixel in rows: entries[offset[p]] .. entries[offset[p + 1]].
+struct WeightTile {
+    PixelBox box;
+    std::vector<std::size_t> offset;
+    std::vector<OwnerWeight> entries;
+};
+
+struct WeightOptions {
+    bool skip_interior = true;  ///< a support without segments: the point's owner has it all
+    bool skip_cancelling = true;  ///< a segment between owners of one class is not integrated
+};
+
+/// One thread's part of the stage.
+class WeightWorker {
+  public:
+    WeightWorker(const Prefilter& filter, const WeightOptions& options);
+
+    /// The weights of `box`, given the segments (ids into map.segments) that may touch a support in it.
+    /// Samples lie at (i + 0.5, j + 0.5) + offset_px, where offset_px is whole pixels.
+    void run(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
+             const PixelBox& box, glm::dvec2 offset_px, WeightTile& out);
+
+    std::uint64_t terms() const { return weights_.terms(); }
+    std::uint64_t labelConflicts() const { return weights_.label_conflicts(); }
+    std::uint64_t interiorPixels() const { return interior_pixels_; }
+
+  private:
+    struct Span {
+        std::uint32_t segment;
+        Owner left, right;
+        double x0, x1;  ///< of the part within reach of the row
+    };
+    void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
+                    double y);
+    void runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out);
+
+    double radius_;
+    WeightOptions options_;
+    PixelWeights weights_;
+    std::vector<Span> row_;
+    std::uint64_t interior_pixels_ = 0;
+};
+
+/// Pixel boxes of kWeightTilePx that tile `box`, and the segments within reach of each.
+inline constexpr int kWeightTilePx = 32;
+struct WeightTiles {
+    std::vector<PixelBox> boxes;
+    IdLists segments;
+};
+WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius);
+
+}  // namespace edgewise
