@@ -1,0 +1,212 @@
+#include "pipeline/shade.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+namespace edgewise {
+
+/// An owner's triangle, in eye space.
+struct Shading::Surface {
+    const Geometry* geometry;
+    const Material* material;
+    std::array<std::uint32_t, 3> vertex;
+    bool back_facing;
+    std::uint32_t plane;
+};
+
+/// A place on a triangle: perspective-correct barycentrics and how they change along the screen's axes.
+struct Shading::Location {
+    glm::dvec3 barycentric{0.0};
+    glm::dvec3 d_dx{0.0}, d_dy{0.0};  ///< per pixel
+};
+
+namespace {
+
+double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Nearest point of the segment a, b to s.
+glm::dvec2 nearestOnSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
+    const glm::dvec2 along = b - a;
+    const double t = glm::dot(s - a, along) / glm::dot(along, along);
+    return t <= 0.0 ? a : (t >= 1.0 ? b : a + along * t);
+}
+
+bool inside(const ScreenTriangle& piece, glm::dvec2 s) {
+    for (int k = 0; k < 3; ++k)
+        if (cross2(piece.p_px[(k + 1) % 3] - piece.p_px[k], s - piece.p_px[k]) < 0.0) return false;
+    return true;
+}
+
+/// Inside [0, 1] and summing to 1: nothing is extrapolated, not even from a triangle seen almost edge-on.
+glm::dvec3 clampToTriangle(const glm::dvec3& barycentric) {
+    const glm::dvec3 clamped = glm::clamp(barycentric, 0.0, 1.0);
+    const double sum = clamped.x + clamped.y + clamped.z;
+    return sum > 0.0 ? clamped / sum : glm::dvec3(1.0 / 3.0);
+}
+
+template <class Vector>
+auto interpolate(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex, const glm::dvec3& w) {
+    return values[vertex[0]] * w.x + values[vertex[1]] * w.y + values[vertex[2]] * w.z;
+}
+
+template <class Vector>
+bool sameAtCorners(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex) {
+    return values[vertex[0]] == values[vertex[1]] && values[vertex[0]] == values[vertex[2]];
+}
+
+std::optional<glm::dvec3> unit(const glm::dvec3& v) {
+    const double size = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    if (size == 0.0) return std::nullopt;
+    const glm::dvec3 scaled = v / size;
+    return scaled / std::sqrt(glm::dot(scaled, scaled));
+}
+
+}  // namespace
+
+double rigLight(const glm::dvec3& normal_eye) {
+    double light = kRigAmbient;
+    for (const RigLight& lamp : {kRigKey, kRigFill})
+        light += std::max(0.0, glm::dot(normal_eye, lamp.towards)) * lamp.intensity;
+    return light;
+}
+
+Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
+                 const ScreenPieces& pieces)
+    : scene_(scene),
+      camera_from_world_(camera.camera_from_world),
+      map_(makeScreenMap(camera, film)),
+      screen_(screen),
+      pieces_(pieces),
+      pyramids_(scene.images.size()) {
+    std::vector<std::uint32_t> used;
+    for (const Material& material : scene.materials)
+        if (material.base_color_texture != kNone) used.push_back(scene.textures[material.base_color_texture].image);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::erase(used, kNone);
+    tbb::parallel_for(std::size_t(0), used.size(), [&](std::size_t i) { pyramids_[used[i]].emplace(scene.images[used[i]]); });
+}
+
+Shading::Surface Shading::surfaceOf(Owner owner) const {
+    const TriangleRef at = findTriangle(scene_, owner);
+    const Geometry& geometry = scene_.geometry[at.geometry];
+    return {&geometry, &scene_.materials[geometry.material], geometry.triangles[at.triangle],
+            pieces_.back_facing[owner] != 0, screen_.triangles[pieces_.first[owner]].plane};
+}
+
+/// Barycentrics of the plane's point on the pixel's ray. A corner a is moved along the ray r = (u, v, -1) onto z = 0,
+/// a' = a + a.z (u, v): det(r, b, c) does not change by that, so the weight of a is cross(b', c'), whether or not the
+/// corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine in (u, v).
+Shading::Location Shading::locate(const Surface& surface, glm::dvec2 p_px) const {
+    const glm::dvec2 uv = map_.toImagePlane(p_px);
+    std::array<glm::dvec2, 3> moved;
+    std::array<double, 3> slope;  // d a' / d(u, v), times the identity
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 p(camera_from_world_ * glm::dvec4(surface.geometry->position_world[surface.vertex[k]], 1.0));
+        slope[k] = map_.perspective ? p.z : -1.0;
+        moved[k] = glm::dvec2(p) + slope[k] * uv;
+    }
+    glm::dvec3 weight, d_du, d_dv;
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        weight[k] = cross2(moved[i], moved[j]);
+        d_du[k] = slope[i] * moved[j].y - moved[i].y * slope[j];
+        d_dv[k] = moved[i].x * slope[j] - slope[i] * moved[j].x;
+    }
+    const double sum = weight.x + weight.y + weight.z;
+    if (sum == 0.0) return {glm::dvec3(1.0 / 3.0), {}, {}};
+    auto derivative = [&](const glm::dvec3& d) {
+        return (d - (weight / sum) * (d.x + d.y + d.z)) / (sum * map_.scale_px);
+    };
+    return {clampToTriangle(weight / sum), derivative(d_du), -derivative(d_dv)};
+}
+
+/// Towards the viewer on either side, and the same for all triangles of a plane.
+glm::dvec3 Shading::flatNormal(const Surface& surface) const { return pieces_.plane_normal_eye[surface.plane]; }
+
+glm::dvec3 Shading::cornerNormal(const Surface& surface, int corner) const {
+    const glm::dvec3& world = surface.geometry->normal_world[surface.vertex[corner]];
+    const auto normal = unit(glm::dmat3(camera_from_world_) * world);
+    if (!normal) return flatNormal(surface);
+    return surface.back_facing ? -*normal : *normal;
+}
+
+glm::dvec3 Shading::normalAt(const Surface& surface, const glm::dvec3& w) const {
+    if (surface.geometry->normal_world.empty()) return flatNormal(surface);
+    const auto normal = unit(cornerNormal(surface, 0) * w.x + cornerNormal(surface, 1) * w.y +
+                             cornerNormal(surface, 2) * w.z);
+    return normal.value_or(flatNormal(surface));
+}
+
+const MipPyramid* Shading::pyramidOf(const Surface& surface) const {
+    const Material& material = *surface.material;
+    if (material.base_color_texture == kNone || surface.geometry->uv[material.base_color_uv].empty()) return nullptr;
+    const std::uint32_t image = scene_.textures[material.base_color_texture].image;
+    return image == kNone ? nullptr : &*pyramids_[image];
+}
+
+glm::dvec3 Shading::textureAt(const Surface& surface, const Location& at) const {
+    const auto& uv = surface.geometry->uv[surface.material->base_color_uv];
+    const TextureFootprint footprint{interpolate(uv, surface.vertex, at.d_dx), interpolate(uv, surface.vertex, at.d_dy)};
+    return sampleTexture(scene_.textures[surface.material->base_color_texture], *pyramidOf(surface),
+                         interpolate(uv, surface.vertex, at.barycentric), footprint);
+}
+
+std::optional<glm::dvec3> Shading::constantBase(const Surface& surface) const {
+    const Geometry& geometry = *surface.geometry;
+    glm::dvec3 base(surface.material->base_color);
+    if (base == glm::dvec3(0.0)) return base;
+    if (const MipPyramid* pyramid = pyramidOf(surface)) {
+        if (!pyramid->uniform()) return std::nullopt;
+        base *= *pyramid->uniform();
+    }
+    if (geometry.color.empty()) return base;
+    if (!sameAtCorners(geometry.color, surface.vertex)) return std::nullopt;
+    return base * glm::dvec3(geometry.color[surface.vertex[0]]);
+}
+
+std::optional<glm::dvec3> Shading::constant(const Surface& surface) const {
+    const auto base = constantBase(surface);
+    if (!base || surface.material->unlit || *base == glm::dvec3(0.0)) return base;
+    const auto& normals = surface.geometry->normal_world;
+    if (normals.empty()) return *base * rigLight(flatNormal(surface));
+    if (!sameAtCorners(normals, surface.vertex)) return std::nullopt;
+    return *base * rigLight(cornerNormal(surface, 0));
+}
+
+std::optional<glm::dvec3> Shading::constant(Owner owner) const { return constant(surfaceOf(owner)); }
+
+glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
+    const Surface surface = surfaceOf(owner);
+    if (const auto colour = constant(surface)) return *colour;
+    const Location at = locate(surface, p_px);
+    glm::dvec3 colour(surface.material->base_color);
+    if (pyramidOf(surface)) colour *= textureAt(surface, at);
+    if (!surface.geometry->color.empty())
+        colour *= glm::dvec3(interpolate(surface.geometry->color, surface.vertex, at.barycentric));
+    if (!surface.material->unlit) colour *= rigLight(normalAt(surface, at.barycentric));
+    return colour;
+}
+
+glm::dvec2 Shading::closestPoint(Owner owner, glm::dvec2 sample_px) const {
+    glm::dvec2 best = sample_px;
+    double best_px2 = std::numeric_limits<double>::infinity();
+    for (const ScreenTriangle& piece : pieces_.of(owner, screen_)) {
+        if (inside(piece, sample_px)) return sample_px;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec2 p = nearestOnSegment(piece.p_px[k], piece.p_px[(k + 1) % 3], sample_px);
+            const double px2 = glm::dot(p - sample_px, p - sample_px);
+            if (px2 < best_px2) best = p, best_px2 = px2;
+        }
+    }
+    return best;
+}
+
+glm::dvec3 Shading::closest(Owner owner, glm::dvec2 sample_px) const {
+    const Surface surface = surfaceOf(owner);
+    if (const auto colour = constant(surface)) return *colour;
+    return atPoint(owner, closestPoint(owner, sample_px));
+}
+
+}  // namespace edgewise
