@@ -12,15 +12,15 @@
 namespace edgewise {
 namespace {
 
-/// The name OpenImageIO picks its reader by. Nothing but the two formats of glTF gets that far.
+/// OpenImageIO's reader. Nothing but the two formats of glTF gets that far.
 const char* readerName(std::span<const std::uint8_t> bytes, const std::string& what) {
     constexpr std::array<std::uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     constexpr std::array<std::uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
     const auto startsWith = [&](const auto& magic) {
         return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
     };
-    if (startsWith(png)) return "in.png";
-    if (startsWith(jpeg)) return "in.jpg";
+    if (startsWith(png)) return "png";
+    if (startsWith(jpeg)) return "jpeg";
     throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG nor JPEG");
 }
 
@@ -46,13 +46,21 @@ bool readAs(OIIO::ImageInput& input, int channels, Samples& samples) {
     return true;
 }
 
-Samples readSamples(std::span<const std::uint8_t> bytes, const std::string& what) {
+std::unique_ptr<OIIO::ImageInput> openInput(std::span<const std::uint8_t> bytes,
+                                            OIIO::Filesystem::IOMemReader& memory, const std::string& what) {
     const char* const name = readerName(bytes, what);
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    OIIO::ImageSpec straight_alpha;
+    auto input = OIIO::ImageInput::create(name);
+    if (!input) throw FailureError(what, fmt::format("this OpenImageIO has no reader for {}", name));
+    OIIO::ImageSpec straight_alpha, spec;
     straight_alpha.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::open(name, &straight_alpha, &memory);
-    if (!input) throw InputError(what, OIIO::geterror());
+    if (!input->set_ioproxy(&memory) || !input->open(what, spec, straight_alpha))
+        throw InputError(what, input->geterror());
+    return input;
+}
+
+Samples readSamples(std::span<const std::uint8_t> bytes, const std::string& what) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+    const auto input = openInput(bytes, memory, what);
     const OIIO::ImageSpec& spec = input->spec();
     needSize(spec, what);
     Samples samples;

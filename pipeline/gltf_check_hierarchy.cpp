@@ -1,4 +1,4 @@
-// Nodes, scenes, cameras: the nodes form a forest, whose roots the scenes list.
+// Nodes, scenes, cameras: the nodes form a forest.
 #include <cmath>
 #include <vector>
 
@@ -61,12 +61,11 @@ void checkCycles(const GltfElement& root, const std::vector<std::size_t>& parent
     }
 }
 
-void checkScene(const GltfElement& scene, const GltfCounts& counts, const std::vector<std::size_t>& parent) {
+/// Real exporters list nodes that have a parent outside the scene; only the same node twice is refused here.
+void checkScene(const GltfElement& scene, const GltfCounts& counts) {
     std::vector<bool> listed(counts.nodes, false);
     scene.each("nodes", [&](const GltfElement& node) {
         const std::size_t index = node.reference(counts.nodes, "nodes");
-        if (parent[index] != kNoParent)
-            node.fail(fmt::format("nodes[{}] is no root: its parent is nodes[{}]", index, parent[index]));
         if (listed[index]) node.fail(fmt::format("nodes[{}] is listed twice", index));
         listed[index] = true;
     });
@@ -102,11 +101,10 @@ void checkSkin(const GltfElement& skin, const GltfCounts& counts) {
 
 void checkHierarchy(const GltfElement& root, const GltfCounts& counts) {
     root.each("nodes", [&](const GltfElement& node) { checkNode(node, counts); });
-    const std::vector<std::size_t> parent = checkParents(root, counts);
-    checkCycles(root, parent);
+    checkCycles(root, checkParents(root, counts));
     root.each("cameras", checkCamera);
     root.each("skins", [&](const GltfElement& skin) { checkSkin(skin, counts); });
-    root.each("scenes", [&](const GltfElement& scene) { checkScene(scene, counts, parent); });
+    root.each("scenes", [&](const GltfElement& scene) { checkScene(scene, counts); });
     root.referenceIf("scene", counts.scenes, "scenes");
 }
 

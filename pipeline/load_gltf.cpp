@@ -55,7 +55,8 @@ class SceneReader {
           quantized_(quantized),
           options_(options),
           scene_(scene),
-          used_materials_(model.materials.size(), false) {}
+          used_materials_(model.materials.size(), false),
+          visited_(model.nodes.size(), false) {}
 
     void read() {
         for (const tinygltf::Node& node : model_.nodes) scene_.node_names.push_back(node.name);
@@ -74,7 +75,8 @@ class SceneReader {
         glm::dmat4 world_from_parent;
     };
 
-    /// Iterative: hierarchies may be 100,000 deep.
+    /// Iterative: hierarchies may be 100,000 deep. A scene's nodes are its roots, even one that has a parent
+    /// outside the scene (whose transform then does not count); one below another listed node is refused.
     void visitNodes() {
         std::vector<Pending> pending;
         const std::vector<int> roots = rootNodes(model_, options_.scene, scene_.source);
@@ -84,6 +86,9 @@ class SceneReader {
             pending.pop_back();
             const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(current.node)];
             const glm::dmat4 world_from_node = current.world_from_parent * localTransform(node);
+            if (visited_[static_cast<std::size_t>(current.node)])
+                throw InputError(nodeName(current.node), "the scene lists it and one of its ancestors");
+            visited_[static_cast<std::size_t>(current.node)] = true;
             visitNode(current.node, world_from_node);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
                 pending.push_back({*child, world_from_node});
@@ -189,7 +194,7 @@ class SceneReader {
     const bool quantized_;
     const LoadOptions& options_;
     Scene& scene_;
-    std::vector<bool> used_materials_;
+    std::vector<bool> used_materials_, visited_;
     std::size_t vertex_count_ = 0;
 };
 
