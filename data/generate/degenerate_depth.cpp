@@ -99,10 +99,10 @@ GltfFile makeNearPlane()
     soup.triangle({-3, 1, 5}, {3, 1, 5}, {0, 2, 2});                    // wholly behind
     soup.triangle({-2, 0.5, -1}, {-4, 2, -6}, {-5, 0, -6});             // a vertex on the near plane
     soup.triangle({0.5, 0.25, 0}, {3, 2, -6}, {2, 3, -6});              // a vertex in the plane of the eye
-    soup.triangle({0, 0, 0}, {-1, 3, -8}, {1, 3, -9});                  // a vertex in the eye
+    soup.triangle({0, 0, 0}, {-1, 3, -8}, {1, 3, -9});                  // a vertex in the eye: edge-on
     soup.triangle({-0.1, 0, -0.5}, {0.1, 0, -0.5}, {0, 0.1, -0.7});     // between the eye and the near plane
     soup.triangle({-20, 8, -60}, {20, 8, -60}, {0, 30, -140});          // through the far plane
-    soup.triangle({1e6, -2, -20}, {-1e6, -2, -20}, {0, -1e6, 1e6});     // far beyond any guard band, two ways
+    soup.triangle({8, 16, -40}, {1e6, 9, -40}, {1e6, 1e6, 1e6});        // far beyond any guard band, two ways
     soup.triangle({1, -0.5, 3}, {2, 0.5, -12}, {2.5, -0.25, -12});      // one vertex behind the eye
     soup.triangle({-1, -0.5, 3}, {-1.5, -0.5, 4}, {-2, 0.5, -12});      // two vertices behind the eye
     GltfFile file;

@@ -82,8 +82,8 @@ GltfFile makeTorus(std::uint32_t around, std::uint32_t tube)
                                              {"metallicFactor", 0.0},
                                              {"roughnessFactor", 0.5}}}});
     const int mesh = file.addMesh(Json::array({file.addPrimitive(closedTorus(around, tube), material)}));
-    addPerspectiveCamera(file, {.yfov = 40.0 * kDegree}, {{"translation", Json::array({0.0, 0.0, 4.2})}});
-    file.addNode({{"name", "torus"}, {"mesh", mesh}, {"rotation", rotation({1.0, 0.25, 0.0}, -55.0 / 360.0)}});
+    addPerspectiveCamera(file, {.yfov = 40.0 * kDegree}, {{"translation", Json::array({0.0, 0.0, 4.5})}});
+    file.addNode({{"name", "torus"}, {"mesh", mesh}, {"rotation", rotation({1.0, 0.25, 0.0}, -68.0 / 360.0)}});
     return file;
 }
 
@@ -95,12 +95,14 @@ GltfFile makeTorusSequence()
         {{"name", "checker"},
          {"pbrMetallicRoughness", {{"baseColorTexture", texture}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.4}}}});
     const int mesh = file.addMesh(Json::array({file.addPrimitive(texturedTorus(96, 48), material)}));
-    addPerspectiveCamera(file, {.yfov = 36.0 * kDegree, .aspect = 2.0}, {{"translation", Json::array({0.0, 0.5, 7.0})}});
+    addPerspectiveCamera(file, {.yfov = 30.0 * kDegree, .aspect = 2.0}, {{"translation", Json::array({0.0, 0.0, 7.0})}});
+    constexpr double kScale = 0.62;  // neighbours' bounding spheres stay apart: 2 * 1.45 * 0.62 < |(1.45, 0.4, 1.1)|
     for (int k = 0; k < 7; ++k) {
         file.addNode({{"name", "torus " + std::to_string(k)},
                       {"mesh", mesh},
-                      {"translation", Json::array({-2.9 + 1.5 * k, 0.1 + 0.25 * k, 1.2 - 2.4 * k})},
-                      {"rotation", rotation({0.8, 0.6, 0.0}, (20.0 + 40.0 * k) / 360.0)}});
+                      {"translation", Json::array({-2.5 + 1.45 * k, -0.4 + 0.4 * k, 0.2 - 1.1 * k})},
+                      {"rotation", rotation({0.8, 0.6, 0.0}, (20.0 + 40.0 * k) / 360.0)},
+                      {"scale", Json::array({kScale, kScale, kScale})}});
     }
     return file;
 }
