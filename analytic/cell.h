@@ -1,0 +1,62 @@
+// A cell of the screen and what visibility makes of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analytic/carrier.h"
+
+namespace edgewise {
+
+/// Cell borders lie this far right of and below their grid position: no vertex, no axis-parallel edge and no sample
+/// row ever lies on one.
+inline constexpr double kBorderRestPx = 0x1p-34;
+
+/// x0 < x <= x1, y0 < y <= y1 on the grid; the true borders are kBorderRestPx further.
+struct Cell {
+    glm::dvec2 min{0.0}, max{0.0};
+};
+
+/// A visible piece of a carrier inside one cell, directed like the carrier.
+struct SegmentPiece {
+    std::uint64_t key;
+    LineRef line;
+    Owner left, right;
+    FinePoint a, b;
+};
+
+/// From x on along a sample row.
+struct RowPiece {
+    int row;
+    Owner owner;
+    double x_px;
+};
+
+/// How much work visibility did, and how often its exact parts fired.
+struct VisibilityCounts {
+    std::uint64_t cells = 0;             ///< leaves
+    std::uint64_t slabs = 0;
+    std::uint64_t depth_lines = 0;       ///< pairs of planes that change order inside a leaf
+    std::uint64_t exact_depth = 0;       ///< depth comparisons that the filter left to exact arithmetic
+    std::uint64_t hidden = 0;            ///< (cell, triangle) pairs dropped behind a covering triangle
+    double widest_gap_px = 0.0;          ///< of `check_closure`: widest change of owner that no line explains
+
+    void add(const VisibilityCounts& other);
+};
+
+struct VisibilityOptions {
+    int max_triangles = 12;        ///< a cell with more is split
+    double min_cell_px = 0.0625;   ///< but not below this
+    bool occlusion = true;         ///< drop what one covering triangle hides
+    bool piercing = true;          ///< look for lines of equal depth
+    bool check_closure = false;    ///< measure widest_gap_px: the fuzzer's question
+};
+
+/// Everything visibility emits, appended cell by cell.
+struct CellOutput {
+    std::vector<SegmentPiece> segments;
+    std::vector<RowPiece> rows;
+    VisibilityCounts counts;
+};
+
+}  // namespace edgewise

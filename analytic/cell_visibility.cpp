@@ -1,0 +1,104 @@
+#include "analytic/cell_visibility.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analytic/local_plane.h"
+
+namespace edgewise {
+namespace {
+
+/// Largest and smallest of cross(e, p - a) over the cell's corners, and the bound of its rounding.
+struct EdgeRange {
+    double lowest, highest, error;
+};
+
+EdgeRange edgeRange(glm::dvec2 a, glm::dvec2 b, const Cell& cell) {
+    const glm::dvec2 e = b - a;
+    const glm::dvec2 lo = cell.min - a, hi = cell.max - a;
+    const double px_hi = e.x * (e.x > 0 ? hi.y : lo.y), px_lo = e.x * (e.x > 0 ? lo.y : hi.y);
+    const double py_hi = e.y * (e.y > 0 ? lo.x : hi.x), py_lo = e.y * (e.y > 0 ? hi.x : lo.x);
+    // Two products and their difference round; the border itself is kBorderRestPx away from the grid.
+    const double size = std::abs(e.x) * std::max(std::abs(lo.y), std::abs(hi.y)) +
+                        std::abs(e.y) * std::max(std::abs(lo.x), std::abs(hi.x));
+    const double error = 3.0 * 0x1p-53 * size + (std::abs(e.x) + std::abs(e.y)) * (2.0 * kBorderRestPx);
+    return {px_lo - py_hi, px_hi - py_lo, error};
+}
+
+/// Whether p hides q on the whole cell: its depth is greater at all four corners.
+bool hides(const ScreenScene& scene, const ScreenTriangle& p, const ScreenTriangle& q, const Cell& cell) {
+    if (p.plane == q.plane) return p.owner < q.owner;
+    const double reach = std::max(cell.max.x - cell.min.x, cell.max.y - cell.min.y) * 1.0625;
+    const LocalPlane a = localPlane(scene, p, cell.min, reach), b = localPlane(scene, q, cell.min, reach);
+    const glm::dvec2 size = cell.max - cell.min;
+    const double da = a.a - b.a, db = a.b - b.b;
+    const double lowest = (a.c - b.c) + std::min(0.0, da * size.x) + std::min(0.0, db * size.y);
+    const double border = (std::abs(da) + std::abs(db)) * (2.0 * kBorderRestPx);
+    return lowest > 2.0 * (a.error + b.error) + border;
+}
+
+}  // namespace
+
+Overlap overlap(const ScreenTriangle& t, const Cell& cell) {
+    bool covers = true;
+    const auto& p = t.p_px;
+    const double x0 = std::min({p[0].x, p[1].x, p[2].x}), x1 = std::max({p[0].x, p[1].x, p[2].x});
+    const double y0 = std::min({p[0].y, p[1].y, p[2].y}), y1 = std::max({p[0].y, p[1].y, p[2].y});
+    if (x1 <= cell.min.x || x0 > cell.max.x || y1 <= cell.min.y || y0 > cell.max.y) return {false, false};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const EdgeRange range = edgeRange(p[k], p[(k + 1) % 3], cell);
+        if (range.highest < -range.error) return {false, false};
+        covers = covers && range.lowest > range.error;
+    }
+    return {true, covers};
+}
+
+void CellVisibility::run(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> candidates,
+                         const VisibilityOptions& options, CellOutput& out) {
+    stack_.assign(candidates.begin(), candidates.end());
+    visit(scene, cell, cell.min, 0, stack_.size(), options, out);
+}
+
+void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
+                           std::size_t end, const VisibilityOptions& options, CellOutput& out) {
+    const std::size_t own = stack_.size();
+    std::uint32_t occluder = 0;
+    bool has_occluder = false;
+    const glm::dvec2 center = 0.5 * (cell.min + cell.max);
+    double nearest = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t index = stack_[i];
+        const ScreenTriangle& t = scene.triangles[index];
+        const Overlap o = overlap(t, cell);
+        if (!o.meets) continue;
+        stack_.push_back(index);
+        if (!o.covers || !options.occlusion) continue;
+        const double z = localPlane(scene, t, center, 0.0).c;
+        if (!has_occluder || z > nearest) has_occluder = true, nearest = z, occluder = index;
+    }
+    if (has_occluder) {
+        const ScreenTriangle& front = scene.triangles[occluder];
+        const auto hidden = [&](std::uint32_t index) {
+            return index != occluder && hides(scene, front, scene.triangles[index], cell);
+        };
+        const auto first = stack_.begin() + static_cast<std::ptrdiff_t>(own);
+        const auto kept = std::remove_if(first, stack_.end(), hidden);
+        out.counts.hidden += static_cast<std::uint64_t>(stack_.end() - kept);
+        stack_.erase(kept, stack_.end());
+    }
+    const std::size_t count = stack_.size() - own;
+    const glm::dvec2 size = cell.max - cell.min;
+    const bool crowded = count > static_cast<std::size_t>(options.max_triangles);
+    if (crowded && size.x > options.min_cell_px) {
+        const double xs[3] = {cell.min.x, center.x, cell.max.x}, ys[3] = {cell.min.y, center.y, cell.max.y};
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            const std::size_t i = quarter & 1, j = quarter >> 1;
+            visit(scene, {{xs[i], ys[j]}, {xs[i + 1], ys[j + 1]}}, origin, own, own + count, options, out);
+        }
+    } else {
+        sweep_.run(scene, cell, origin, std::span(stack_).subspan(own, count), options, out);
+    }
+    stack_.resize(own);
+}
+
+}  // namespace edgewise

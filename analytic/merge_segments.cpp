@@ -1,0 +1,76 @@
+#include "analytic/merge_segments.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace edgewise {
+namespace {
+
+/// Along a line towards its direction: +y, or -x where horizontal.
+bool before(const FinePoint& p, const FinePoint& q) {
+    return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) < std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
+}
+
+bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q) {
+    if (p.key != q.key) return p.key < q.key;
+    if (before(p.a, q.a)) return true;
+    if (before(q.a, p.a)) return false;
+    return std::tie(p.left, p.right) < std::tie(q.left, q.right);
+}
+
+bool joins(const SegmentPiece& p, const SegmentPiece& q) {
+    if (p.key != q.key || p.left != q.left || p.right != q.right) return false;
+    const bool same_y = p.b.grid.y == q.a.grid.y && p.b.rest.y == q.a.rest.y;
+    const bool horizontal = p.a.grid.y == p.b.grid.y && p.a.rest.y == p.b.rest.y;
+    return same_y && (!horizontal || (p.b.grid.x == q.a.grid.x && p.b.rest.x == q.a.rest.x));
+}
+
+Carrier carrierOf(const ScreenScene& scene, LineRef ref) {
+    return ref.isEdge() ? edgeCarrier(scene, ref) : depthCarrier(scene, ref);
+}
+
+bool sameLine(const ScreenScene& scene, LineRef p, LineRef q) {
+    if (p == q) return true;
+    if (!p.isEdge() || !q.isEdge()) return false;
+    return sameEdge(edgeCarrier(scene, p), edgeCarrier(scene, q));
+}
+
+}  // namespace
+
+void mergeSegments(const ScreenScene& scene, std::vector<SegmentPiece>& pieces, VisibleMap& map) {
+    std::sort(pieces.begin(), pieces.end(), pieceBefore);
+    map.lines.clear(), map.segments.clear();
+    LineRef last{};
+    for (std::size_t i = 0; i < pieces.size();) {
+        SegmentPiece piece = pieces[i];
+        for (++i; i < pieces.size() && joins(piece, pieces[i]); ++i) piece.b = pieces[i].b;
+        if (map.lines.empty() || !sameLine(scene, last, piece.line)) {
+            map.lines.push_back(carrierLine(carrierOf(scene, piece.line)));
+            last = piece.line;
+        }
+        const auto line = static_cast<std::uint32_t>(map.lines.size() - 1);
+        map.segments.push_back({piece.a, piece.b, distance(piece.a, piece.b), line, piece.left, piece.right});
+    }
+}
+
+void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, VisibleMap& map) {
+    const auto count = static_cast<std::size_t>(std::max(0, row_end - row_begin));
+    std::vector<std::vector<RowOwner>> rows(count);
+    for (const RowPiece& p : pieces)
+        if (p.row >= row_begin && p.row < row_end)
+            rows[static_cast<std::size_t>(p.row - row_begin)].push_back({p.x_px, p.owner});
+    map.row_begin = row_begin;
+    map.row_offset.assign(1, 0);
+    map.rows.clear();
+    for (std::vector<RowOwner>& row : rows) {
+        std::stable_sort(row.begin(), row.end(), [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
+        const std::size_t begin = map.rows.size();
+        for (const RowOwner& entry : row) {
+            if (map.rows.size() > begin && map.rows.back().owner == entry.owner) continue;
+            map.rows.push_back(entry);
+        }
+        map.row_offset.push_back(map.rows.size());
+    }
+}
+
+}  // namespace edgewise

@@ -1,0 +1,297 @@
+#include "analytic/slab_sweep.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "analytic/leaf_lines.h"
+
+namespace edgewise {
+namespace {
+
+/// What the sweep knows of a line at the present slab.
+struct Track {
+    double x_top = 0.0, x_bottom = 0.0, x_mid = 0.0;
+    FinePoint top, bottom;  ///< the line's canonical points at the slab's ends, where an event gave them
+    bool top_known = false, bottom_known = false;
+    bool open = false;
+    Owner left = kBackground, right = kBackground;  ///< of the open piece
+    FinePoint start;
+    std::size_t labelled_in = SIZE_MAX;  ///< slab of the newest label
+    Owner new_left = kBackground, new_right = kBackground;
+};
+
+/// The owner changes to `after` at a line.
+struct Bound {
+    std::uint32_t line;
+    Owner after;
+};
+
+/// The owners of a slab from left to right.
+struct Profile {
+    Owner first = kBackground;
+    std::vector<Bound> bounds;
+};
+
+/// A breakpoint of one side of an ordinate, or an end of a horizontal.
+struct Break {
+    double x;
+    FinePoint point;
+    int side;  ///< 0 above, 1 below, 2 neither
+    Owner after;
+};
+
+}  // namespace
+
+struct SlabSweep::State {
+    const ScreenScene* scene;
+    Cell cell;
+    glm::dvec2 origin;
+    const VisibilityOptions* options;
+    CellOutput* out;
+
+    LeafLines leaf;
+    std::vector<Track> tracks;
+    std::vector<std::uint32_t> by_entry, order, left_lines;
+    std::vector<std::uint64_t> mask;
+    Profile above, below;
+    std::vector<Break> breaks;
+    std::size_t next_entry, next_event, next_horizontal;
+
+    void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt, CellOutput& output);
+    void startSlab(std::size_t slab);
+    void locate(std::size_t slab);
+    void sweep(std::size_t slab);
+    void updatePieces(std::size_t slab);
+    void emitRows(std::size_t slab);
+    void emitHorizontals(std::size_t slab);
+    void closePiece(std::uint32_t line, const FinePoint& end);
+    void toggle(std::uint32_t line);
+    Owner nearest(double x, double y);
+    FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
+    void addBreaks(const Profile& profile, int side, std::size_t slab);
+    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first);
+    double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
+    double rightBorder() const { return (cell.max.x - origin.x) + kBorderRestPx; }
+    double localY(FineCoordinate y) const { return (y.grid - origin.y) + y.rest; }
+};
+
+void SlabSweep::State::begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt,
+                             CellOutput& output) {
+    scene = &s, cell = c, origin = o, options = &opt, out = &output;
+    tracks.assign(leaf.lines.size(), Track{});
+    mask.assign(leaf.words, 0);
+    by_entry.clear(), order.clear(), left_lines.clear();
+    for (std::uint32_t i = 0; i < leaf.lines.size(); ++i) {
+        const LeafLine& line = leaf.lines[i];
+        if (line.runsInside()) by_entry.push_back(i);
+        if (line.side_before < 0 || line.side_after < 0) left_lines.push_back(i);
+    }
+    std::sort(by_entry.begin(), by_entry.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return leaf.lines[a].in0 < leaf.lines[b].in0 || (leaf.lines[a].in0 == leaf.lines[b].in0 && a < b);
+    });
+    next_entry = next_event = next_horizontal = 0;
+    above.bounds.clear(), below.bounds.clear();
+    ++out->counts.cells;
+    out->counts.slabs += leaf.keys.size() - 1;
+}
+
+/// Lines end, carry on from the slab above, or begin.
+void SlabSweep::State::startSlab(std::size_t slab) {
+    const OrderKey key = leaf.keys[slab];
+    for (const std::uint32_t i : order) {
+        Track& t = tracks[i];
+        t.x_top = t.x_bottom, t.top = t.bottom, t.top_known = t.bottom_known, t.bottom_known = false;
+        if (leaf.lines[i].in1 == key) closePiece(i, leaf.lines[i].exit);
+    }
+    std::erase_if(order, [&](std::uint32_t i) { return leaf.lines[i].in1 == key; });
+    while (next_entry < by_entry.size() && leaf.lines[by_entry[next_entry]].in0 <= key) {
+        const std::uint32_t i = by_entry[next_entry++];
+        Track& t = tracks[i];
+        t.top = leaf.lines[i].enter, t.top_known = true, t.x_top = leaf.localX(t.top);
+        order.push_back(i);
+    }
+}
+
+/// Abscissae at the slab's bottom, then the order at its middle.
+void SlabSweep::State::locate(std::size_t slab) {
+    const OrderKey key = leaf.keys[slab + 1];
+    while (next_event < leaf.events.size() && leaf.events[next_event].key < key) ++next_event;
+    for (std::size_t e = next_event; e < leaf.events.size() && leaf.events[e].key == key; ++e) {
+        for (const std::uint32_t i : {leaf.events[e].p, leaf.events[e].q}) {
+            Track& t = tracks[i];
+            if (!t.bottom_known) t.bottom = leaf.events[e].point, t.bottom_known = true;
+        }
+    }
+    for (const std::uint32_t i : order) {
+        Track& t = tracks[i];
+        const LeafLine& line = leaf.lines[i];
+        if (line.in1 == key) t.bottom = line.exit, t.bottom_known = true;
+        t.x_bottom = t.bottom_known ? leaf.localX(t.bottom) : leaf.xAt(line, leaf.ordinates[slab + 1]);
+        t.x_mid = 0.5 * (t.x_top + t.x_bottom);
+    }
+    for (std::size_t i = 1; i < order.size(); ++i) {  // nearly sorted: the slab above was
+        const std::uint32_t line = order[i];
+        std::size_t j = i;
+        for (; j > 0 && tracks[order[j - 1]].x_mid > tracks[line].x_mid; --j) order[j] = order[j - 1];
+        order[j] = line;
+    }
+}
+
+void SlabSweep::State::toggle(std::uint32_t line) {
+    for (std::size_t w = 0; w < leaf.words; ++w) mask[w] ^= leaf.masks[line * leaf.words + w];
+}
+
+Owner SlabSweep::State::nearest(double x, double y) {
+    const LocalPlane* best = nullptr;
+    for (std::size_t w = 0; w < leaf.words; ++w) {
+        for (std::uint64_t bits = mask[w]; bits != 0; bits &= bits - 1) {
+            const LocalPlane& p = leaf.planes[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
+            if (!best || inFront(*scene, origin, p, *best, x, y, out->counts.exact_depth)) best = &p;
+        }
+    }
+    return best ? best->owner : kBackground;
+}
+
+/// Walks the slab's middle from left to right; labels the lines where the owner changes.
+void SlabSweep::State::sweep(std::size_t slab) {
+    const OrderKey key = leaf.keys[slab];
+    std::fill(mask.begin(), mask.end(), 0);
+    for (const std::uint32_t i : left_lines) {
+        const LeafLine& line = leaf.lines[i];
+        if (key < line.y0 || key >= line.y1) continue;
+        const int side = key >= line.in1 ? line.side_after : key < line.in0 ? line.side_before : 0;
+        if (side < 0) toggle(i);
+    }
+    const double y = 0.5 * (localY(leaf.ordinates[slab]) + localY(leaf.ordinates[slab + 1]));
+    const double x_end = rightBorder();
+    double x = leftBorder();
+    const auto middle = [&](std::size_t next) {
+        return 0.5 * (x + (next < order.size() ? tracks[order[next]].x_mid : x_end));
+    };
+    Owner owner = below.first = nearest(middle(0), y);
+    below.bounds.clear();
+    for (std::size_t i = 0; i < order.size();) {
+        std::uint32_t chosen = order[i];
+        x = tracks[order[i]].x_mid;
+        for (; i < order.size() && tracks[order[i]].x_mid == x; ++i) {
+            toggle(order[i]);
+            const Carrier &c = leaf.lines[order[i]].carrier, &best = leaf.lines[chosen].carrier;
+            if (c.isEdge() != best.isEdge() ? c.isEdge() : c.ref < best.ref) chosen = order[i];
+        }
+        const Owner after = nearest(middle(i), y);
+        if (after == owner) continue;
+        Track& t = tracks[chosen];
+        t.labelled_in = slab, t.new_left = owner, t.new_right = after;
+        below.bounds.push_back({chosen, after});
+        owner = after;
+    }
+}
+
+FinePoint SlabSweep::State::topPoint(std::uint32_t line, std::size_t slab) const {
+    const LeafLine& l = leaf.lines[line];
+    if (l.in1 == leaf.keys[slab]) return l.exit;
+    return tracks[line].top_known ? tracks[line].top : pointAtY(l.carrier, leaf.ordinates[slab]);
+}
+
+void SlabSweep::State::closePiece(std::uint32_t line, const FinePoint& end) {
+    Track& t = tracks[line];
+    if (!t.open) return;
+    const Carrier& c = leaf.lines[line].carrier;
+    out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
+    t.open = false;
+}
+
+void SlabSweep::State::updatePieces(std::size_t slab) {
+    for (const std::uint32_t i : order) {
+        Track& t = tracks[i];
+        const bool labelled = t.labelled_in == slab;
+        if (t.open && labelled && t.left == t.new_left && t.right == t.new_right) continue;
+        if (!t.open && !labelled) continue;
+        const FinePoint p = topPoint(i, slab);
+        if (t.open) closePiece(i, p);
+        if (labelled) t.open = true, t.left = t.new_left, t.right = t.new_right, t.start = p;
+    }
+}
+
+void SlabSweep::State::emitRows(std::size_t slab) {
+    const double y0 = leaf.ordinates[slab].grid, y1 = leaf.ordinates[slab + 1].grid;
+    for (int row = static_cast<int>(std::floor(y0 - 0.5)); row + 0.5 <= y1; ++row) {
+        const FineCoordinate y{row + 0.5, 0.0};
+        const OrderKey key = orderKey(y, origin.y);
+        if (key < leaf.keys[slab] || key >= leaf.keys[slab + 1]) continue;
+        out->rows.push_back({row, below.first, cell.min.x + kBorderRestPx});
+        for (const Bound& b : below.bounds)
+            out->rows.push_back({row, b.after, origin.x + leaf.xAt(leaf.lines[b.line], y)});
+    }
+}
+
+void SlabSweep::State::addBreaks(const Profile& profile, int side, std::size_t slab) {
+    double reached = leftBorder();
+    for (const Bound& b : profile.bounds) {
+        FinePoint p = topPoint(b.line, slab);
+        p.grid.y = leaf.ordinates[slab].grid, p.rest.y = leaf.ordinates[slab].rest;
+        reached = std::clamp(leaf.localX(p), reached, rightBorder());
+        breaks.push_back({reached, p, side, b.after});
+    }
+}
+
+/// Owners may change across an ordinate along horizontal lines only: emits those pieces, and measures what no
+/// horizontal line explains.
+void SlabSweep::State::emitHorizontals(std::size_t slab) {
+    const std::size_t first = next_horizontal;
+    const OrderKey key = leaf.keys[slab];
+    while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key) ++next_horizontal;
+    if (first == next_horizontal && !options->check_closure) return;
+    breaks.clear();
+    addBreaks(above, 0, slab);
+    addBreaks(below, 1, slab);
+    for (std::size_t h = first; h < next_horizontal; ++h) {
+        breaks.push_back({leaf.horizontals[h].x_low, leaf.horizontals[h].low, 2, kBackground});
+        breaks.push_back({leaf.horizontals[h].x_high, leaf.horizontals[h].high, 2, kBackground});
+    }
+    const FineCoordinate y = leaf.ordinates[slab];
+    breaks.push_back({leftBorder(), finePoint({cell.min.x, kBorderRestPx}, y), 2, kBackground});
+    breaks.push_back({rightBorder(), finePoint({cell.max.x, kBorderRestPx}, y), 2, kBackground});
+    std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
+    Owner over = above.first, under = below.first;
+    for (std::size_t i = 0; i < breaks.size(); ++i) {
+        if (breaks[i].side == 0) over = breaks[i].after;
+        if (breaks[i].side == 1) under = breaks[i].after;
+        if (over != under && i + 1 < breaks.size() && breaks[i].x < breaks[i + 1].x)
+            emitHorizontal(breaks[i], breaks[i + 1], over, under, first);
+    }
+}
+
+void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first) {
+    for (std::size_t h = first; h < next_horizontal; ++h) {
+        const LeafHorizontal& line = leaf.horizontals[h];
+        if (line.x_low > from.x || line.x_high < to.x) continue;
+        const auto pointOf = [&](const Break& b) { return b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point; };
+        out->segments.push_back({lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
+        return;
+    }
+    out->counts.widest_gap_px = std::max(out->counts.widest_gap_px, to.x - from.x);
+}
+
+SlabSweep::SlabSweep() : state_(std::make_unique<State>()) {}
+SlabSweep::~SlabSweep() = default;
+
+void SlabSweep::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
+                    std::span<const std::uint32_t> triangles, const VisibilityOptions& options, CellOutput& out) {
+    State& s = *state_;
+    s.leaf.collect(scene, cell, origin, triangles, options, out.counts);
+    s.begin(scene, cell, origin, options, out);
+    const std::size_t slabs = s.leaf.keys.size() - 1;
+    for (std::size_t slab = 0; slab < slabs; ++slab) {
+        s.startSlab(slab);
+        s.locate(slab);
+        s.sweep(slab);
+        s.updatePieces(slab);
+        if (slab > 0) s.emitHorizontals(slab);
+        s.emitRows(slab);
+        std::swap(s.above, s.below);
+    }
+    for (const std::uint32_t i : s.order) s.closePiece(i, s.leaf.lines[i].exit);
+}
+
+}  // namespace edgewise

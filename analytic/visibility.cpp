@@ -1,0 +1,45 @@
+#include "analytic/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace edgewise {
+namespace {
+
+int floorToCell(int px) { return px - ((px % kCellPx) + kCellPx) % kCellPx; }
+
+}  // namespace
+
+void VisibilityCounts::add(const VisibilityCounts& other) {
+    cells += other.cells;
+    slabs += other.slabs;
+    depth_lines += other.depth_lines;
+    exact_depth += other.exact_depth;
+    hidden += other.hidden;
+    widest_gap_px = std::max(widest_gap_px, other.widest_gap_px);
+}
+
+Window cellWindow(const Window& window) {
+    return {floorToCell(window.x0), floorToCell(window.y0), floorToCell(window.x1 + kCellPx - 1),
+            floorToCell(window.y1 + kCellPx - 1)};
+}
+
+VisibleMap visibleMap(const ScreenScene& scene, const Window& window, const VisibilityOptions& options,
+                      VisibilityCounts* counts) {
+    const Window cells = cellWindow(window);
+    std::vector<std::uint32_t> all(scene.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    CellVisibility visibility;
+    CellOutput out;
+    for (int y = cells.y0; y < cells.y1; y += kCellPx)
+        for (int x = cells.x0; x < cells.x1; x += kCellPx)
+            visibility.run(scene, {{x, y}, {x + kCellPx, y + kCellPx}}, all, options, out);
+    VisibleMap map;
+    mergeSegments(scene, out.segments, map);
+    mergeRows(out.rows, cells.y0, cells.y1, map);
+    if (counts) counts->add(out.counts);
+    return map;
+}
+
+}  // namespace edgewise
