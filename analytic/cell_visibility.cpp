@@ -17,7 +17,7 @@ EdgeRange edgeRange(glm::dvec2 a, glm::dvec2 b, const Cell& cell) {
     const glm::dvec2 e = b - a;
     const glm::dvec2 lo = cell.min - a, hi = cell.max - a;
     const double px_hi = e.x * (e.x > 0 ? hi.y : lo.y), px_lo = e.x * (e.x > 0 ? lo.y : hi.y);
-    const double py_hi = e.y * (e.y > 0 ? lo.x : hi.x), py_lo = e.y * (e.y > 0 ? hi.x : lo.x);
+    const double py_hi = e.y * (e.y > 0 ? hi.x : lo.x), py_lo = e.y * (e.y > 0 ? lo.x : hi.x);
     // Two products and their difference round; the border itself is kBorderRestPx away from the grid.
     const double size = std::abs(e.x) * std::max(std::abs(lo.y), std::abs(hi.y)) +
                         std::abs(e.y) * std::max(std::abs(lo.x), std::abs(hi.x));

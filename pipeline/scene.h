@@ -44,6 +44,9 @@ struct Geometry {
     std::vector<glm::vec3> position_file;    ///< as in the file, before the node's transform
     std::vector<glm::dvec3> position_world;
     std::vector<glm::dvec3> normal_world;    ///< not normalised; empty: flat normals
+    /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken through it
+    /// from the file's exact planes. None: through the rounded world positions.
+    std::optional<glm::dmat4> world_from_file;
     std::array<std::vector<glm::dvec2>, 2> uv;
     std::vector<glm::dvec4> color;           ///< COLOR_0, linear
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< winding already flipped under negative scale

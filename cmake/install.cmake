@@ -1,0 +1,22 @@
+# The program, the library, its headers and data, and the package that find_package(edgewise) finds.
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edgewise)
+
+foreach(part options analytic pipeline)
+  set_target_properties(edgewise_${part} PROPERTIES EXPORT_NAME ${part})
+endforeach()
+install(TARGETS edgewise_options edgewise_analytic edgewise_pipeline EXPORT edgewise_targets)
+install(TARGETS edgewise)
+install(EXPORT edgewise_targets NAMESPACE edgewise:: FILE edgewiseTargets.cmake DESTINATION ${package_folder})
+
+foreach(room analytic pipeline shaders)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgewise
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN cli EXCLUDE)
+endforeach()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/edgewiseConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/edgewiseConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgewiseConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/edgewiseConfig.cmake ${PROJECT_BINARY_DIR}/edgewiseConfigVersion.cmake
+  DESTINATION ${package_folder})

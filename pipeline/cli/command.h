@@ -1,0 +1,18 @@
+// The subcommands: each lives in the file of its name and adds itself to the program.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <string>
+
+namespace edgewise::cli {
+
+/// `command_line` is what the user typed, for the metadata of outputs.
+void addRender(CLI::App& program, const std::string& command_line);
+void addInfo(CLI::App& program);
+void addMethods(CLI::App& program);
+void addFilters(CLI::App& program);
+void addScenes(CLI::App& program);
+
+}  // namespace edgewise::cli

@@ -1,0 +1,53 @@
+// Clipping in eye space: near and far planes, and the screen's guard band, before anything is divided by w.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+#include "pipeline/screen_map.h"
+
+namespace edgewise {
+
+/// The polygon of a clipped triangle: at most nine corners, and room for rounded ones that are not quite convex.
+struct ClipPolygon {
+    static constexpr int kCapacity = 32;
+    std::array<glm::dvec3, kCapacity> p_eye;
+    std::array<std::uint32_t, kCapacity> vertex;  ///< kNone for a corner that clipping made
+    int size = 0;
+
+    void push(const glm::dvec3& p, std::uint32_t id) {
+        if (size == kCapacity) return;
+        p_eye[size] = p;
+        vertex[size++] = id;
+    }
+};
+
+/// The half-spaces of what can be seen. Bit i of a code says that a point lies outside plane i.
+class ClipVolume {
+  public:
+    static constexpr int kPlanes = 6;
+
+    ClipVolume(const Camera& camera, const ScreenMap& map);
+
+    std::uint8_t outcode(const glm::dvec3& p_eye) const;
+
+    /// Clips against the planes in `codes`. A new corner depends on its edge's two endpoints alone, not on their order:
+    /// neighbours get the same bits and no crack opens. Fewer than three corners: nothing is left.
+    void clip(ClipPolygon& polygon, std::uint8_t codes) const;
+
+  private:
+    /// Inside is h(p) = a . p + b >= 0.
+    struct Plane {
+        glm::dvec3 a{0.0};
+        double b = 0.0;
+        double at(const glm::dvec3& p) const { return ((a.x * p.x + a.y * p.y) + a.z * p.z) + b; }
+    };
+    glm::dvec3 crossing(int plane, const glm::dvec3& p, const glm::dvec3& q) const;
+
+    std::array<Plane, kPlanes> planes_;
+    int plane_count_ = kPlanes;
+};
+
+}  // namespace edgewise

@@ -1,0 +1,212 @@
+#include "pipeline/coplanar.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "analytic/expansion.h"
+#include "pipeline/plane_key.h"
+
+namespace edgewise {
+namespace {
+
+using Corners = std::array<glm::vec3, 3>;
+
+Corners fileCorners(const Geometry& geometry, std::uint32_t triangle) {
+    const auto& t = geometry.triangles[triangle];
+    return {geometry.position_file[t[0]], geometry.position_file[t[1]], geometry.position_file[t[2]]};
+}
+
+/// One component of a x b + b x c + c x a = (b - a) x (c - a). Products of two floats are exact in double.
+Expansion<6> normalComponent(const Corners& p, int axis) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    Expansion<6> sum;
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec3 &a = p[k], &b = p[(k + 1) % 3];
+        sum.add(double(a[i]) * b[j]);
+        sum.add(-double(a[j]) * b[i]);
+    }
+    return sum;
+}
+
+/// The sign of normalComponent(). The filter's bound: six exact products, five additions, each off by at most
+/// u = 2^-53 of a partial sum that is at most `size`.
+int normalSign(const Corners& p, int axis) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    double sum = 0.0, size = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double forward = double(p[k][i]) * p[(k + 1) % 3][j], back = double(p[k][j]) * p[(k + 1) % 3][i];
+        sum += forward - back;
+        size += std::fabs(forward) + std::fabs(back);
+    }
+    if (std::fabs(sum) > 0x1p-50 * size) return sum > 0.0 ? 1 : -1;
+    return normalComponent(p, axis).sign();
+}
+
+bool hasArea(const Corners& p) {
+    return normalSign(p, 0) != 0 || normalSign(p, 1) != 0 || normalSign(p, 2) != 0;
+}
+
+/// The widest extent of the normal, rounded: it chooses the representative.
+double roughSize(const Corners& p) {
+    const glm::dvec3 n = glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0]));
+    return std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+}
+
+/// A plane with its exact normal.
+struct ExactPlane {
+    std::array<Expansion<6>, 3> normal;
+    glm::vec3 point;
+
+    explicit ExactPlane(const Corners& p)
+        : normal{normalComponent(p, 0), normalComponent(p, 1), normalComponent(p, 2)}, point(p[0]) {}
+
+    /// n . (q - point) = 0, exactly.
+    bool contains(const glm::vec3& q) const {
+        Expansion<72> distance;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (q[axis] == point[axis]) continue;
+            distance.addScaled(normal[axis], q[axis]);
+            distance.addScaled(normal[axis], -double(point[axis]));
+        }
+        return distance.sign() == 0;
+    }
+
+    bool contains(const Corners& p) const { return contains(p[0]) && contains(p[1]) && contains(p[2]); }
+
+    int widestAxis() const {
+        auto size = [&](int axis) { return std::fabs(normal[axis].roundedSum()); };
+        return size(0) >= size(1) && size(0) >= size(2) ? 0 : (size(1) >= size(2) ? 1 : 2);
+    }
+};
+
+struct Candidate {
+    std::uint64_t key = 0;
+    std::uint32_t node = 0, index = 0;
+    std::uint32_t geometry = kNone, triangle = 0;  ///< geometry = kNone: no area
+    auto order() const { return std::tie(node, key, index); }
+};
+
+Candidate makeCandidate(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle) {
+    const Geometry& g = scene.geometry[geometry];
+    const Corners p = fileCorners(g, triangle);
+    Candidate candidate{0, g.node, g.first_triangle + triangle, kNone, triangle};
+    if (!hasArea(p)) return candidate;
+    candidate.geometry = geometry;
+    candidate.key = planeKey(p[0], p[1], p[2]).value_or(0);
+    return candidate;
+}
+
+std::vector<Candidate> sortedCandidates(const Scene& scene) {
+    std::vector<Candidate> all(scene.triangle_count);
+    for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
+        const Geometry& geometry = scene.geometry[g];
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
+            for (std::size_t t = range.begin(); t < range.end(); ++t)
+                all[geometry.first_triangle + t] = makeCandidate(scene, g, static_cast<std::uint32_t>(t));
+        });
+    }
+    std::erase_if(all, [](const Candidate& c) { return c.geometry == kNone; });
+    tbb::parallel_sort(all, [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
+    return all;
+}
+
+/// For each candidate of a run of equal keys the first triangle of its plane. One plane a run, unless keys collide.
+void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<std::uint32_t>& leader_of) {
+    std::vector<std::pair<ExactPlane, std::uint32_t>> planes;
+    for (const Candidate& candidate : run) {
+        const Corners p = fileCorners(scene.geometry[candidate.geometry], candidate.triangle);
+        const auto found =
+            std::find_if(planes.begin(), planes.end(), [&](const auto& plane) { return plane.first.contains(p); });
+        if (found != planes.end()) {
+            leader_of[candidate.index] = found->second;
+        } else {
+            leader_of[candidate.index] = candidate.index;
+            if (run.size() > 1) planes.emplace_back(ExactPlane(p), candidate.index);
+        }
+    }
+}
+
+std::vector<std::uint32_t> findLeaders(const Scene& scene, const std::vector<Candidate>& sorted) {
+    std::vector<std::uint32_t> leader_of(scene.triangle_count, kNone);
+    auto sameRun = [&](std::size_t i) {
+        return i > 0 && sorted[i].node == sorted[i - 1].node && sorted[i].key == sorted[i - 1].key;
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sorted.size(), 1024), [&](const auto& range) {
+        for (std::size_t begin = range.begin(); begin < range.end(); ++begin) {
+            if (sameRun(begin)) continue;
+            std::size_t end = begin + 1;
+            while (end < sorted.size() && sameRun(end)) ++end;
+            groupRun(scene, std::span(sorted).subspan(begin, end - begin), leader_of);
+        }
+    });
+    return leader_of;
+}
+
+/// Numbers the planes by their first triangle and picks each one's widest triangle.
+void choosePlanes(const Scene& scene, const std::vector<std::uint32_t>& leader_of, CoplanarGroups& groups) {
+    std::vector<double> widest;
+    for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
+        const Geometry& geometry = scene.geometry[g];
+        for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+            const std::uint32_t index = geometry.first_triangle + t, leader = leader_of[index];
+            if (leader == kNone) continue;
+            if (leader == index) {
+                groups.plane_of[index] = static_cast<std::uint32_t>(groups.planes.size());
+                groups.planes.emplace_back();
+                widest.push_back(-1.0);
+            }
+            const std::uint32_t plane = groups.plane_of[index] = groups.plane_of[leader];
+            const double size = roughSize(fileCorners(geometry, t));
+            if (size <= widest[plane]) continue;
+            widest[plane] = size;
+            groups.planes[plane].geometry = g;
+            groups.planes[plane].triangle = t;
+        }
+    }
+}
+
+void formNormals(const Scene& scene, CoplanarGroups& groups, std::vector<int>& axis) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, groups.planes.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            FilePlane& plane = groups.planes[i];
+            const ExactPlane exact(fileCorners(scene.geometry[plane.geometry], plane.triangle));
+            for (int k = 0; k < 3; ++k) plane.normal[k] = exact.normal[k].toDoubleDouble();
+            axis[i] = exact.widestAxis();
+        }
+    });
+}
+
+void findReversed(const Scene& scene, const std::vector<int>& axis, CoplanarGroups& groups) {
+    for (const Geometry& geometry : scene.geometry) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
+            for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                const std::size_t index = geometry.first_triangle + t;
+                const std::uint32_t plane = groups.plane_of[index];
+                if (plane == kNone) continue;
+                const int sign = normalSign(fileCorners(geometry, static_cast<std::uint32_t>(t)), axis[plane]);
+                groups.reversed[index] = (sign > 0) != (groups.planes[plane].normal[axis[plane]].hi > 0.0);
+            }
+        });
+    }
+}
+
+}  // namespace
+
+CoplanarGroups findCoplanar(const Scene& scene) {
+    CoplanarGroups groups;
+    groups.plane_of.assign(scene.triangle_count, kNone);
+    groups.reversed.assign(scene.triangle_count, 0);
+    choosePlanes(scene, findLeaders(scene, sortedCandidates(scene)), groups);
+    std::vector<int> axis(groups.planes.size());
+    formNormals(scene, groups, axis);
+    findReversed(scene, axis, groups);
+    return groups;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,33 @@
+// The finished picture: linear Rec.709, double precision, one window of the film.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "pipeline/film.h"
+
+namespace edgewise {
+
+/// Pixels in rows from the top. The colour holds the background already; alpha is the sum of the other owners' weights,
+/// which may be negative with negative lobes.
+struct ImageBuffer {
+    PixelBox box;
+    std::vector<glm::dvec4> rgba;
+    std::vector<float> edge;  ///< 1 where the filter's support holds visible owners that differ by more than 1/255
+
+    ImageBuffer() = default;
+    explicit ImageBuffer(const PixelBox& pixels)
+        : box(pixels),
+          rgba(static_cast<std::size_t>(box.width()) * box.height(), glm::dvec4(0.0)),
+          edge(rgba.size(), 0.0f) {}
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y - box.y0) * box.width() + (x - box.x0);
+    }
+};
+
+/// Colours further apart than this in some channel make an edge.
+inline constexpr double kEdgeContrast = 1.0 / 255.0;
+
+}  // namespace edgewise

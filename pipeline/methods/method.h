@@ -1,0 +1,114 @@
+// The one interface of all antialiasing methods: scene, camera, film, filter, options -> image, stage times, plan.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analytic/prefilter.h"
+#include "pipeline/film.h"
+#include "pipeline/image_buffer.h"
+#include "pipeline/progress.h"
+#include "pipeline/scene.h"
+
+namespace edgewise {
+
+/// Where a (pixel, owner) is shaded.
+enum class ShadingMode {
+    kClosest,   ///< at the owner's point nearest to the pixel's sample
+    kCentroid,  ///< at the centroid of what is seen of the owner in the support
+    kSamples,   ///< the mean over up to ShadingChoice::samples points of what is seen
+    kHit        ///< sampling methods: each sample where it lands
+};
+
+struct ShadingChoice {
+    ShadingMode mode = ShadingMode::kClosest;
+    int samples = 1;
+};
+
+struct RenderOptions {
+    glm::dvec3 background{0.0};  ///< linear
+    int threads = 0;             ///< 0: all
+    std::size_t memory_mib = 1024;
+    ShadingChoice shading;
+    std::uint64_t seed = 0;
+    std::set<std::string> no_skip;
+    std::optional<std::filesystem::path> dump_dir;
+
+    /// --no-skip NAME, or all.
+    bool keeps(const std::string& stage) const { return no_skip.contains(stage) || no_skip.contains("all"); }
+};
+
+struct MethodInput {
+    const Scene& scene;
+    const ResolvedCamera& camera;
+    const Film& film;
+    const Prefilter& filter;
+    const RenderOptions& options;
+    Progress& progress;
+};
+
+struct StageTime {
+    std::string name;
+    double seconds = 0.0;
+};
+
+/// Whether a stage ran, and the reason in words.
+struct PlanEntry {
+    std::string stage;
+    bool runs = true;
+    std::string why;
+};
+
+struct MethodResult {
+    ImageBuffer image;
+    std::vector<StageTime> stages;
+    std::vector<PlanEntry> plan;
+    std::map<std::string, std::uint64_t> counts;
+    double setup_seconds = 0.0;
+    std::string device = "cpu";      ///< where it ran
+    std::vector<std::string> notes;  ///< one sentence each
+};
+
+/// A method as the user typed it: NAME, NAME:NUMBER, NAME:key=value,..., composed by '+'.
+struct MethodSpec {
+    std::string typed;
+    std::string name;
+    std::optional<int> number;
+    std::map<std::string, std::string> parameters;
+    std::vector<MethodSpec> composed;  ///< what follows each '+', in order
+
+    /// The parameter's value, or the fallback.
+    std::string parameter(const std::string& key, const std::string& fallback) const {
+        const auto found = parameters.find(key);
+        return found == parameters.end() ? fallback : found->second;
+    }
+};
+
+/// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
+MethodSpec parseMethod(std::string_view typed);
+
+/// Throws InputError for what a method cannot do, FailureError where a limit is met, Interrupted when cancelled.
+MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
+
+/// One line a method of this build: name, parameters, what it is.
+std::vector<std::string> describeMethods();
+
+/// What the registry holds for each method; a new method adds one entry in registry.cpp.
+struct MethodEntry {
+    enum class Number { kNone, kRequired };
+    std::string name;
+    std::string summary;
+    Number number = Number::kNone;
+    int smallest = 1, largest = 64;                           ///< of the number
+    std::map<std::string, std::vector<std::string>> choices;  ///< parameter -> what it may be; device is added to all
+    MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
+};
+
+}  // namespace edgewise

@@ -1,0 +1,80 @@
+#include "pipeline/plane_key.h"
+
+#include <array>
+#include <cmath>
+
+namespace edgewise {
+namespace {
+
+/// Residues modulo 2^61 - 1, a Mersenne prime: a multiplication by 2^k is a rotation of 61 bits.
+constexpr int kBits = 61;
+constexpr std::uint64_t kPrime = (std::uint64_t(1) << kBits) - 1;
+
+std::uint64_t addMod(std::uint64_t a, std::uint64_t b) {
+    const std::uint64_t sum = a + b;
+    return sum >= kPrime ? sum - kPrime : sum;
+}
+
+std::uint64_t subMod(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
+
+std::uint64_t mulMod(std::uint64_t a, std::uint64_t b) {
+    __extension__ using Wide = unsigned __int128;
+    const Wide product = Wide(a) * b;
+    return addMod(std::uint64_t(product) & kPrime, std::uint64_t(product >> kBits));
+}
+
+/// a^(p - 2) = 1/a (Fermat).
+std::uint64_t inverse(std::uint64_t a) {
+    std::uint64_t result = 1;
+    for (std::uint64_t exponent = kPrime - 2; exponent != 0; exponent >>= 1) {
+        if (exponent & 1) result = mulMod(result, a);
+        a = mulMod(a, a);
+    }
+    return result;
+}
+
+std::uint64_t residue(float value) {
+    int exponent = 0;
+    const double mantissa = std::ldexp(std::frexp(value, &exponent), 24);
+    const auto magnitude = static_cast<std::uint64_t>(std::fabs(mantissa));
+    const int turn = ((exponent - 24) % kBits + kBits) % kBits;
+    const std::uint64_t turned = ((magnitude << turn) & kPrime) | (turn ? magnitude >> (kBits - turn) : 0);
+    return mantissa < 0 && turned != 0 ? kPrime - turned : turned;
+}
+
+using Vector = std::array<std::uint64_t, 3>;
+
+Vector residues(const glm::vec3& p) { return {residue(p.x), residue(p.y), residue(p.z)}; }
+
+Vector difference(const Vector& a, const Vector& b) {
+    return {subMod(a[0], b[0]), subMod(a[1], b[1]), subMod(a[2], b[2])};
+}
+
+Vector cross(const Vector& a, const Vector& b) {
+    auto minor = [&](int i, int j) { return subMod(mulMod(a[i], b[j]), mulMod(a[j], b[i])); };
+    return {minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+    return hash ^ (hash >> 29);
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> planeKey(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const Vector pa = residues(a);
+    const Vector n = cross(difference(residues(b), pa), difference(residues(c), pa));
+    const std::uint64_t d =
+        addMod(addMod(mulMod(n[0], pa[0]), mulMod(n[1], pa[1])), mulMod(n[2], pa[2]));
+    for (std::uint64_t first = 0; first < 3; ++first) {
+        if (n[first] == 0) continue;
+        const std::uint64_t scale = inverse(n[first]);
+        std::uint64_t key = mix(0, first);
+        for (const std::uint64_t coefficient : {n[1], n[2], d}) key = mix(key, mulMod(coefficient, scale));
+        return key;
+    }
+    return std::nullopt;
+}
+
+}  // namespace edgewise
