@@ -32,7 +32,7 @@ TEST_P(VisibilityTruth, EveryScanlineHasTheRightOwners) {
         const VisibleMap map = visibleMap(random.scene, around(random.centre, kReachPx + 1), options, &counts);
         const auto verdict = witness::compareMap(random.scene, map, glm::dvec2(random.centre) + 0.5, kReachPx, seed, 20);
         EXPECT_TRUE(verdict.good()) << "seed " << seed << ": " << verdict.broken << " broken, " << verdict.disagreements
-                                    << " wrong, widest " << verdict.widest_px << " px; first: " << verdict.first;
+                                    << " wrong, " << verdict.wrong_px2 << " px2, widest " << verdict.widest_px << " px; first: " << verdict.first;
         all.add(verdict);
     }
     fmt::print("{}: {} scanlines, {} crossings, worst offset {:.1e} px, {} exact depth signs, {} depth lines, gap {:.1e}\n",

@@ -58,6 +58,7 @@ void ScanVerdict::add(const ScanVerdict& other) {
     broken += other.broken;
     disagreements += other.disagreements;
     widest_px = std::max(widest_px, other.widest_px);
+    wrong_px2 += other.wrong_px2;
     worst_offset_px = std::max(worst_offset_px, other.worst_offset_px);
     if (first.empty()) first = other.first;
 }
@@ -92,7 +93,7 @@ std::vector<MapCrossing> MapScan::cross(Real v) const {
     return crossings;
 }
 
-void MapScan::compare(const LocalScene& scene, Real v, Real radius, ScanVerdict& verdict) const {
+void MapScan::compare(const LocalScene& scene, Real v, Real height, Real radius, ScanVerdict& verdict) const {
     const std::vector<MapCrossing> crossings = cross(v);
     const std::vector<Run> runs = Scanline(scene).cut(v, radius);
     ++verdict.scanlines;
@@ -120,9 +121,10 @@ void MapScan::compare(const LocalScene& scene, Real v, Real radius, ScanVerdict&
         if (length <= rounding) continue;
         (front.single() ? verdict.disagreements : verdict.broken) += 1;
         verdict.widest_px = std::max(verdict.widest_px, length);
+        verdict.wrong_px2 += length * height;
         if (verdict.first.empty())
-            verdict.first = fmt::format("{} v = {:.20g}, u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in truth, {} on the map",
-                                        exchanged_ ? "x" : "y", double(v), double(cuts[k]), double(cuts[k + 1]), double(length), truth,
+            verdict.first = fmt::format("along {}: v = {:.20g} (band {:.2g} px), u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in truth, {} on the map",
+                                        exchanged_ ? "y" : "x", double(v), double(height), double(cuts[k]), double(cuts[k + 1]), double(length), truth,
                                         front.single() ? fmt::format("{}", front.owner()) : "no single one");
     }
 }
@@ -141,9 +143,9 @@ ScanVerdict compareMap(const ScreenScene& scene, const VisibleMap& map, glm::dve
         const std::vector<Real> events = eventOrdinates(truth, square);
         for (std::size_t k = 0; k + 1 < events.size(); ++k)
             if (events[k + 1] - events[k] > 0x1p-50L)  // two names of one event
-                scan.compare(truth, (events[k] + events[k + 1]) / 2, radius, verdict);
+                scan.compare(truth, (events[k] + events[k + 1]) / 2, events[k + 1] - events[k], radius, verdict);
         for (int k = 0; k < random_lines; ++k)
-            scan.compare(truth, dice.uniform(-double(radius), double(radius)), radius, verdict);
+            scan.compare(truth, dice.uniform(-double(radius), double(radius)), 2 * radius / random_lines, radius, verdict);
     }
     return verdict;
 }

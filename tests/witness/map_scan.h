@@ -23,6 +23,7 @@ struct ScanVerdict {
     std::size_t broken = 0;      ///< places where the labels do not leave exactly one owner
     std::size_t disagreements = 0;  ///< intervals of another owner, longer than rounding explains
     Real widest_px = 0;          ///< the longest of these
+    Real wrong_px2 = 0;          ///< what they come to: length times the height of the band that the line stands for
     Real worst_offset_px = 0;    ///< the largest disagreement of all, measured across the steepest boundary beside it
     std::string first;           ///< the first thing wrong, in words
     void add(const ScanVerdict& other);
@@ -38,7 +39,8 @@ class MapScan {
     std::vector<MapCrossing> cross(Real v) const;
 
     /// Compares the owners on the line v, |u| < radius. `scene` has the same axes as this scan.
-    void compare(const LocalScene& scene, Real v, Real radius, ScanVerdict& verdict) const;
+    /// The line stands for a band `height` px high.
+    void compare(const LocalScene& scene, Real v, Real height, Real radius, ScanVerdict& verdict) const;
 
   private:
     struct Wall {
