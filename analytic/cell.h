@@ -34,7 +34,8 @@ struct RowPiece {
 
 /// How much work visibility did, and how often its exact parts fired.
 struct VisibilityCounts {
-    std::uint64_t cells = 0;             ///< leaves
+    std::uint64_t cells = 0;             ///< leaves that were swept
+    std::uint64_t certified = 0;         ///< cells that one sheet covers
     std::uint64_t slabs = 0;
     std::uint64_t depth_lines = 0;       ///< pairs of planes that change order inside a leaf
     std::uint64_t exact_depth = 0;       ///< depth comparisons that the filter left to exact arithmetic
@@ -48,7 +49,8 @@ struct VisibilityOptions {
     int max_triangles = 12;        ///< a cell with more is split
     double min_cell_px = 0.0625;   ///< but not below this
     bool occlusion = true;         ///< drop what one covering triangle hides
-    bool piercing = true;          ///< look for lines of equal depth
+    bool certify = true;           ///< a cell that one sheet of triangles covers needs no sweep
+    bool every_depth_line = false; ///< of all pairs that meet in the cell, not only those that change order in it
     bool check_closure = false;    ///< measure widest_gap_px: the fuzzer's question
 };
 

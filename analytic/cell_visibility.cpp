@@ -87,6 +87,11 @@ void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec
         stack_.erase(kept, stack_.end());
     }
     const std::size_t count = stack_.size() - own;
+    const auto list = [&] { return std::span<const std::uint32_t>(stack_).subspan(own, count); };
+    if (options.certify && certificate_.run(scene, cell, origin, list(), out)) {
+        stack_.resize(own);
+        return;
+    }
     const glm::dvec2 size = cell.max - cell.min;
     const bool crowded = count > static_cast<std::size_t>(options.max_triangles);
     if (crowded && size.x > options.min_cell_px) {
@@ -96,7 +101,7 @@ void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec
             visit(scene, {{xs[i], ys[j]}, {xs[i + 1], ys[j + 1]}}, origin, own, own + count, options, out);
         }
     } else {
-        sweep_.run(scene, cell, origin, std::span(stack_).subspan(own, count), options, out);
+        sweep_.run(scene, cell, origin, list(), options, out);
     }
     stack_.resize(own);
 }

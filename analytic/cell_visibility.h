@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analytic/cell.h"
+#include "analytic/sheet_certificate.h"
 #include "analytic/slab_sweep.h"
 
 namespace edgewise {
@@ -20,6 +21,7 @@ class CellVisibility {
                const VisibilityOptions& options, CellOutput& out);
 
     std::vector<std::uint32_t> stack_;  ///< candidate lists of the open cells, one behind the other
+    SheetCertificate certificate_;
     SlabSweep sweep_;
 };
 

@@ -5,19 +5,6 @@
 namespace edgewise {
 namespace {
 
-constexpr OrderKey kFarKey = static_cast<OrderKey>(1) << 120;
-
-OrderKey farSafeKey(FineCoordinate y, double origin) {
-    const double offset = y.grid - origin;
-    if (!(offset < kGuardBandPx)) return kFarKey;
-    if (!(offset > -kGuardBandPx)) return -kFarKey;
-    return orderKey(y, origin);
-}
-
-int regionOf(double grid_x, const Cell& cell) { return grid_x <= cell.min.x ? -1 : grid_x > cell.max.x ? 1 : 0; }
-
-FineCoordinate border(double grid) { return {grid, kBorderRestPx}; }
-
 /// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A vertex
 /// that both triangles share lies in both planes and says nothing.
 int signsAtVertices(const ScreenTriangle& t, const ScreenTriangle& other, const LocalPlane& p, const LocalPlane& q,
@@ -81,18 +68,15 @@ bool shareEndpoint(const Carrier& p, const Carrier& q) {
 void LeafLines::collect(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
                         std::span<const std::uint32_t> triangles, const VisibilityOptions& options,
                         VisibilityCounts& counts) {
-    cell_ = cell;
-    origin_ = origin;
+    frame = CellFrame(cell, origin);
     planes.clear(), lines.clear(), horizontals.clear(), events.clear(), masks.clear(), key_scratch_.clear();
     words = std::max<std::size_t>(1, (triangles.size() + 63) / 64);
-    top = orderKey(border(cell.min.y), origin.y);
-    bottom = orderKey(border(cell.max.y), origin.y);
     const double reach = std::max(cell.max.x - origin.x, cell.max.y - origin.y) + 1.0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         planes.push_back(localPlane(scene, scene.triangles[triangles[i]], origin, reach));
         for (std::uint32_t k = 0; k < 3; ++k) addEdge(scene, triangles[i], k, i);
     }
-    if (options.piercing) addDepthLines(scene, triangles, counts);
+    addDepthLines(scene, triangles, options.every_depth_line, counts);
     addCrossings();
     sortKeys();
 }
@@ -102,11 +86,10 @@ void LeafLines::addEdge(const ScreenScene& scene, std::uint32_t triangle, std::u
     line.carrier = edgeCarrier(scene, LineRef::edge(triangle, edge));
     const Carrier& c = line.carrier;
     if (c.horizontal()) {
-        const bool outside = c.a.y <= cell_.min.y || c.a.y > cell_.max.y || c.a.x <= cell_.min.x || c.b.x > cell_.max.x;
-        if (!outside) addHorizontal(c, {c.a.y, 0.0}, gridPoint(c.b), gridPoint(c.a));
+        LeafHorizontal horizontal;
+        if (clipHorizontalEdge(frame, c, horizontal)) horizontals.push_back(horizontal);
         return;
     }
-    if (c.b.y <= cell_.min.y || c.a.y > cell_.max.y || (c.a.x > cell_.max.x && c.b.x > cell_.max.x)) return;
     const std::uint64_t mark = std::uint64_t{1} << (bit % 64);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (!lines[i].carrier.isEdge() || !sameEdge(lines[i].carrier, c)) continue;
@@ -114,67 +97,28 @@ void LeafLines::addEdge(const ScreenScene& scene, std::uint32_t triangle, std::u
         if (c.ref < lines[i].carrier.ref) lines[i].carrier.ref = c.ref;
         return;
     }
-    const OrderKey ka = orderKey({c.a.y, 0.0}, origin_.y), kb = orderKey({c.b.y, 0.0}, origin_.y);
-    line.y0 = std::max(ka, top), line.y1 = std::min(kb, bottom);
-    if (ka >= top) line.enter = gridPoint(c.a);
-    if (kb <= bottom) line.exit = gridPoint(c.b);
-    if (!clipSides(line, regionOf(c.a.x, cell_), regionOf(c.b.x, cell_))) return;
+    if (!clipEdge(frame, line)) return;
     lines.push_back(line);
     masks.resize(lines.size() * words, 0);
     masks[(lines.size() - 1) * words + bit / 64] = mark;
 }
 
-/// Fills in0, in1, enter, exit and the sides. False where the line stays right of the cell: it bounds nothing there.
-bool LeafLines::clipSides(LeafLine& line, int region_a, int region_b) {
-    const Carrier& c = line.carrier;
-    line.in0 = line.y0, line.in1 = line.y1;
-    bool entered = false, exited = false;
-    const auto cross = [&](double grid_x, bool entering, int side) {
-        const FinePoint p = pointAtX(c, border(grid_x));
-        const OrderKey key = farSafeKey(yOf(p), origin_.y);
-        if (entering) {
-            line.side_before = side;
-            if (key > line.in0) line.in0 = key, line.enter = p, entered = true;
-        } else {
-            line.side_after = side;
-            if (key < line.in1) line.in1 = key, line.exit = p, exited = true;
-        }
-    };
-    if (region_a == region_b && region_a != 0) {
-        if (region_a > 0) return false;
-        line.side_before = line.side_after = -1;
-        line.in0 = line.in1 = line.y0;
-        return true;
-    }
-    if (region_a != 0) cross(region_a < 0 ? cell_.min.x : cell_.max.x, true, region_a);
-    if (region_b != 0) cross(region_b < 0 ? cell_.min.x : cell_.max.x, false, region_b);
-    if (!line.runsInside()) return line.side_before < 0 || line.side_after < 0;
-    const bool a_above = !c.isEdge() || orderKey({c.a.y, 0.0}, origin_.y) < top;
-    const bool b_below = !c.isEdge() || orderKey({c.b.y, 0.0}, origin_.y) > bottom;
-    if (!entered && a_above) line.enter = line.y0 == top ? pointAtY(c, border(cell_.min.y)) : line.enter;
-    if (!exited && b_below) line.exit = line.y1 == bottom ? pointAtY(c, border(cell_.max.y)) : line.exit;
-    line.slope = c.slope();
-    const double x0 = localX(line.enter), x1 = localX(line.exit);
-    line.x_low = std::min(x0, x1), line.x_high = std::max(x0, x1);
-    return true;
-}
-
-void LeafLines::addHorizontal(const Carrier& carrier, FineCoordinate y, FinePoint low, FinePoint high) {
-    if (low.grid.x <= cell_.min.x) low = finePoint(border(cell_.min.x), y);
-    if (high.grid.x > cell_.max.x) high = finePoint(border(cell_.max.x), y);
-    horizontals.push_back({carrier, orderKey(y, origin_.y), y, low, high, localX(low), localX(high)});
-}
-
-void LeafLines::addDepthLines(const ScreenScene& scene, std::span<const std::uint32_t> triangles,
+void LeafLines::addDepthLines(const ScreenScene& scene, std::span<const std::uint32_t> triangles, bool every,
                               VisibilityCounts& counts) {
-    const glm::dvec2 lo = cell_.min - origin_, hi = cell_.max - origin_ + glm::dvec2(2.0 * kBorderRestPx);
+    const glm::dvec2 lo = frame.cell.min - frame.origin;
+    const glm::dvec2 hi = frame.cell.max - frame.origin + glm::dvec2(2.0 * kBorderRestPx);
     const std::size_t before = lines.size() + horizontals.size();
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t j = i + 1; j < triangles.size(); ++j) {
             const LocalPlane &p = planes[i], &q = planes[j];
-            if (p.plane == q.plane || p.owner == q.owner || ordered(p, q, lo, hi)) continue;
+            if (p.plane == q.plane || p.owner == q.owner) continue;
             const ScreenTriangle &s = scene.triangles[triangles[i]], &t = scene.triangles[triangles[j]];
-            if (signsAtVertices(s, t, p, q, origin_) != 3 || signsAtVertices(t, s, p, q, origin_) != 3) continue;
+            if (every) {
+                addDepthLine(scene, s, t);
+                continue;
+            }
+            if (ordered(p, q, lo, hi)) continue;
+            if (signsAtVertices(s, t, p, q, frame.origin) != 3 || signsAtVertices(t, s, p, q, frame.origin) != 3) continue;
             if (!boxesOverlap(s, t) || separates(s, t) || separates(t, s)) continue;
             addDepthLine(scene, s, t);
         }
@@ -192,25 +136,13 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
-        const FineCoordinate y = yOf(pointAtX(c, border(cell_.min.x)));
-        const OrderKey key = farSafeKey(y, origin_.y);
-        if (key > top && key < bottom)
-            addHorizontal(c, y, finePoint(border(cell_.min.x), y), finePoint(border(cell_.max.x), y));
+        const FinePoint low = pointAtX(c, border(frame.cell.min.x)), high = pointAtX(c, border(frame.cell.max.x));
+        const OrderKey key = frame.key(yOf(low));
+        if (key > frame.top && key < frame.bottom)
+            horizontals.push_back({c, key, yOf(low), low, high, frame.localX(low), frame.localX(high)});
         return;
     }
-    line.y0 = top, line.y1 = bottom;
-    int region_a = 0, region_b = 0;
-    const double slope = c.slope();
-    if (slope != 0.0) {
-        region_a = slope > 0.0 ? -1 : 1;
-        region_b = -region_a;
-    } else {
-        const FinePoint p_top = pointAtY(c, border(cell_.min.y));
-        const double x = p_top.grid.x + p_top.rest.x;
-        region_a = region_b = regionOf(x, cell_);
-        if (region_a != 0) return;
-    }
-    if (!clipSides(line, region_a, region_b) || !line.runsInside()) return;
+    if (!clipDepthLine(frame, line)) return;
     lines.push_back(line);
     masks.resize(lines.size() * words, 0);
 }
@@ -228,7 +160,7 @@ void LeafLines::addCrossings() {
             if (shareEndpoint(p.carrier, q.carrier)) continue;
             FinePoint point;
             if (!crossing(p.carrier, q.carrier, point)) continue;
-            const OrderKey key = farSafeKey(yOf(point), origin_.y);
+            const OrderKey key = frame.key(yOf(point));
             if (key < std::max(p.in0, q.in0) || key > std::min(p.in1, q.in1)) continue;
             events.push_back({key, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), point});
         }
@@ -236,7 +168,7 @@ void LeafLines::addCrossings() {
 }
 
 void LeafLines::addKey(OrderKey key, FineCoordinate y) {
-    if (key > top && key < bottom) key_scratch_.emplace_back(key, y);
+    if (key > frame.top && key < frame.bottom) key_scratch_.emplace_back(key, y);
 }
 
 void LeafLines::sortKeys() {
@@ -255,13 +187,13 @@ void LeafLines::sortKeys() {
     for (const LeafHorizontal& h : horizontals) addKey(h.key, h.y);
     const auto byKey = [](const auto& a, const auto& b) { return a.first < b.first; };
     std::sort(key_scratch_.begin(), key_scratch_.end(), byKey);
-    keys.assign(1, top), ordinates.assign(1, border(cell_.min.y));
+    keys.assign(1, frame.top), ordinates.assign(1, border(frame.cell.min.y));
     for (const auto& [key, y] : key_scratch_) {
         if (key == keys.back()) continue;
         keys.push_back(key);
         ordinates.push_back(y);
     }
-    keys.push_back(bottom), ordinates.push_back(border(cell_.max.y));
+    keys.push_back(frame.bottom), ordinates.push_back(border(frame.cell.max.y));
     std::sort(events.begin(), events.end(), [](const LeafEvent& a, const LeafEvent& b) { return a.key < b.key; });
     std::sort(horizontals.begin(), horizontals.end(),
               [](const LeafHorizontal& a, const LeafHorizontal& b) { return a.key < b.key; });

@@ -72,7 +72,6 @@ struct SlabSweep::State {
     void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
     double rightBorder() const { return (cell.max.x - origin.x) + kBorderRestPx; }
-    double localY(FineCoordinate y) const { return (y.grid - origin.y) + y.rest; }
 };
 
 void SlabSweep::State::begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt,
@@ -107,7 +106,7 @@ void SlabSweep::State::startSlab(std::size_t slab) {
     while (next_entry < by_entry.size() && leaf.lines[by_entry[next_entry]].in0 <= key) {
         const std::uint32_t i = by_entry[next_entry++];
         Track& t = tracks[i];
-        t.top = leaf.lines[i].enter, t.top_known = true, t.x_top = leaf.localX(t.top);
+        t.top = leaf.lines[i].enter, t.top_known = true, t.x_top = leaf.frame.localX(t.top);
         order.push_back(i);
     }
 }
@@ -126,7 +125,7 @@ void SlabSweep::State::locate(std::size_t slab) {
         Track& t = tracks[i];
         const LeafLine& line = leaf.lines[i];
         if (line.in1 == key) t.bottom = line.exit, t.bottom_known = true;
-        t.x_bottom = t.bottom_known ? leaf.localX(t.bottom) : leaf.xAt(line, leaf.ordinates[slab + 1]);
+        t.x_bottom = t.bottom_known ? leaf.frame.localX(t.bottom) : line.xAt(leaf.frame, leaf.ordinates[slab + 1]);
         t.x_mid = 0.5 * (t.x_top + t.x_bottom);
     }
     for (std::size_t i = 1; i < order.size(); ++i) {  // nearly sorted: the slab above was
@@ -162,7 +161,7 @@ void SlabSweep::State::sweep(std::size_t slab) {
         const int side = key >= line.in1 ? line.side_after : key < line.in0 ? line.side_before : 0;
         if (side < 0) toggle(i);
     }
-    const double y = 0.5 * (localY(leaf.ordinates[slab]) + localY(leaf.ordinates[slab + 1]));
+    const double y = 0.5 * (leaf.frame.localY(leaf.ordinates[slab]) + leaf.frame.localY(leaf.ordinates[slab + 1]));
     const double x_end = rightBorder();
     double x = leftBorder();
     const auto middle = [&](std::size_t next) {
@@ -221,7 +220,7 @@ void SlabSweep::State::emitRows(std::size_t slab) {
         if (key < leaf.keys[slab] || key >= leaf.keys[slab + 1]) continue;
         out->rows.push_back({row, below.first, cell.min.x + kBorderRestPx});
         for (const Bound& b : below.bounds)
-            out->rows.push_back({row, b.after, origin.x + leaf.xAt(leaf.lines[b.line], y)});
+            out->rows.push_back({row, b.after, origin.x + leaf.lines[b.line].xAt(leaf.frame, y)});
     }
 }
 
@@ -230,7 +229,7 @@ void SlabSweep::State::addBreaks(const Profile& profile, int side, std::size_t s
     for (const Bound& b : profile.bounds) {
         FinePoint p = topPoint(b.line, slab);
         p.grid.y = leaf.ordinates[slab].grid, p.rest.y = leaf.ordinates[slab].rest;
-        reached = std::clamp(leaf.localX(p), reached, rightBorder());
+        reached = std::clamp(leaf.frame.localX(p), reached, rightBorder());
         breaks.push_back({reached, p, side, b.after});
     }
 }

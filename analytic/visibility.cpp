@@ -13,6 +13,7 @@ int floorToCell(int px) { return px - ((px % kCellPx) + kCellPx) % kCellPx; }
 
 void VisibilityCounts::add(const VisibilityCounts& other) {
     cells += other.cells;
+    certified += other.certified;
     slabs += other.slabs;
     depth_lines += other.depth_lines;
     exact_depth += other.exact_depth;

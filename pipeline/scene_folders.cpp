@@ -12,15 +12,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The variable's value; an empty one counts as unset.
-std::optional<std::string> environment(const char* name)
-{
+std::optional<std::string> environment(const char* name) {
     const char* value = std::getenv(name);
     if (value == nullptr || *value == '\0') return std::nullopt;
     return value;
 }
 
-std::vector<fs::path> splitPathList(const std::string& list)
-{
+std::vector<fs::path> splitPathList(const std::string& list) {
     std::vector<fs::path> folders;
     for (std::size_t begin = 0; begin <= list.size();) {
         const std::size_t end = std::min(list.find(':', begin), list.size());
@@ -32,8 +30,7 @@ std::vector<fs::path> splitPathList(const std::string& list)
 
 }  // namespace
 
-std::vector<fs::path> defaultDataFolders()
-{
+std::vector<fs::path> defaultDataFolders() {
     std::vector<fs::path> folders;
     if (const auto folder = environment("EDGEWISE_DATA")) folders.emplace_back(*folder);
     std::error_code none;
@@ -43,8 +40,7 @@ std::vector<fs::path> defaultDataFolders()
     return folders;
 }
 
-std::vector<fs::path> defaultCacheFolders()
-{
+std::vector<fs::path> defaultCacheFolders() {
     if (const auto folder = environment("EDGEWISE_CACHE")) return {*folder};
     std::vector<fs::path> folders;
     if (const auto cache = environment("XDG_CACHE_HOME")) folders.push_back(fs::path(*cache) / "edgewise");
@@ -55,19 +51,19 @@ std::vector<fs::path> defaultCacheFolders()
     return folders;
 }
 
-std::vector<fs::path> defaultShareFolders()
-{
+std::vector<fs::path> defaultShareFolders() {
     std::vector<fs::path> folders;
     const auto home = environment("HOME");
-    if (const auto own = environment("XDG_DATA_HOME")) folders.emplace_back(*own);
-    else if (home) folders.push_back(fs::path(*home) / ".local/share");
+    if (const auto own = environment("XDG_DATA_HOME"))
+        folders.emplace_back(*own);
+    else if (home)
+        folders.push_back(fs::path(*home) / ".local/share");
     const std::string list = environment("XDG_DATA_DIRS").value_or("") + ":/usr/local/share:/usr/share";
     for (const fs::path& folder : splitPathList(list)) folders.push_back(folder);
     return folders;
 }
 
-std::optional<fs::path> findBelow(const fs::path& folder, const fs::path& usual)
-{
+std::optional<fs::path> findBelow(const fs::path& folder, const fs::path& usual) {
     std::error_code error;
     if (fs::is_regular_file(folder / usual, error)) return folder / usual;
     std::vector<fs::path> found;
@@ -82,8 +78,7 @@ std::optional<fs::path> findBelow(const fs::path& folder, const fs::path& usual)
     return *std::min_element(found.begin(), found.end());
 }
 
-bool writeWhole(const fs::path& path, const std::string& bytes)
-{
+bool writeWhole(const fs::path& path, const std::string& bytes) {
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error) return false;
@@ -94,7 +89,8 @@ bool writeWhole(const fs::path& path, const std::string& bytes)
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file << bytes;
     file.close();
-    const auto readable = fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read;
+    const auto readable =
+        fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read;
     if (file) fs::permissions(temporary, readable, error);
     if (file && !error) fs::rename(temporary, path, error);
     const bool done = file && !error;

@@ -13,11 +13,13 @@ std::vector<std::filesystem::path> defaultDataFolders();
 std::vector<std::filesystem::path> defaultCacheFolders();
 std::vector<std::filesystem::path> defaultShareFolders();
 
-/// The file of that name below `folder`: at `usual` if it is there, else the first in path order; folders that
-/// cannot be read are passed over.
-std::optional<std::filesystem::path> findBelow(const std::filesystem::path& folder, const std::filesystem::path& usual);
+/// The file of that name below `folder`: at `usual` if it is there, else the first in path order; folders
+/// that cannot be read are passed over.
+std::optional<std::filesystem::path> findBelow(const std::filesystem::path& folder,
+                                               const std::filesystem::path& usual);
 
-/// Writes a file that appears whole or not at all, whoever else writes it at the same time; false if it cannot be.
+/// Writes a file that appears whole or not at all, whoever else writes it at the same time; false if it
+/// cannot be.
 bool writeWhole(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace edgewise

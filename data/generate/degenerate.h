@@ -30,7 +30,8 @@ GltfFile makePiercingBook();
 GltfFile makeCyclicOverlap();
 /// Triangles cut by the near plane and the far plane, behind the eye, and with vertices on all of these.
 GltfFile makeNearPlane();
-/// Overlapping decals before their coplanar base in index order, in two primitives of one node, in perspective.
+/// Overlapping decals before their coplanar base in index order, in two primitives of one node, in
+/// perspective.
 GltfFile makeDecals();
 /// 512 triangles facing outwards.
 GltfFile makeClosedSphere();

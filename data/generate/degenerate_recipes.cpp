@@ -7,8 +7,8 @@ namespace {
 using Make = GltfFile (*)();
 
 /// Scenes of a few triangles are text that a person can read; the others are binary.
-Recipe recipe(const std::string& stem, int size_px, std::uint64_t triangles, Make make, const std::string& what)
-{
+Recipe recipe(const std::string& stem, int size_px, std::uint64_t triangles, Make make,
+              const std::string& what) {
     const bool text = triangles <= 64;
     return {.name = "",
             .file = "degenerate/" + stem + (text ? ".gltf" : ".glb"),
@@ -19,14 +19,14 @@ Recipe recipe(const std::string& stem, int size_px, std::uint64_t triangles, Mak
             .bytes = [=] { return text ? make().gltf() : make().glb(); }};
 }
 
-std::vector<Recipe> makeDegenerateRecipes()
-{
+std::vector<Recipe> makeDegenerateRecipes() {
     return {
         recipe("piercing", 64, 3, makePiercing, "three triangles that pierce each other"),
         recipe("piercing-book", 64, 32, makePiercingBook, "sixteen quads through one common line"),
         recipe("cyclic-overlap", 64, 3, makeCyclicOverlap, "three triangles, each over the next"),
         recipe("t-junctions", 64, 24, makeTJunctions, "rows against one long edge, straight and slanted"),
-        recipe("coplanar-duplicates", 64, 5, makeCoplanarDuplicates, "one plane covered twice with other diagonals"),
+        recipe("coplanar-duplicates", 64, 5, makeCoplanarDuplicates,
+               "one plane covered twice with other diagonals"),
         recipe("equal-depth", 64, 6, makeEqualDepth, "boxes of three nodes at one depth"),
         recipe("slivers", 64, 20, makeSlivers, "triangles from 1 px to 1e-5 px wide"),
         recipe("fan-1000", 32, 1000, makeFan1000, "a thousand triangles around a vertex on a pixel's centre"),
@@ -42,8 +42,7 @@ std::vector<Recipe> makeDegenerateRecipes()
 
 }  // namespace
 
-const std::vector<Recipe>& degenerateRecipes()
-{
+const std::vector<Recipe>& degenerateRecipes() {
     static const std::vector<Recipe> recipes = makeDegenerateRecipes();
     return recipes;
 }

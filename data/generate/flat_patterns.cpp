@@ -10,25 +10,24 @@ constexpr double kPatternPx = 1024.0;
 constexpr std::uint32_t kRings = 125, kRingQuads = 80, kPaletteTexels = 128;
 constexpr std::uint32_t kColumns = 101, kRows = 100;
 
-int addRingPalette(GltfFile& file)
-{
+int addRingPalette(GltfFile& file) {
     constexpr int kNearest = 9728, kClampToEdge = 33071;
     std::vector<Rgb8> texels;
     for (std::uint32_t k = 0; k < kPaletteTexels; ++k) {
         texels.push_back(k % 2 == 0 ? Rgb8{255, 255, 255} : Rgb8{0, 0, 0});
     }
     const int image = file.addImage(pngBytes(static_cast<int>(kPaletteTexels), 1, texels));
-    return file.addTexture(image, {{"magFilter", kNearest},
-                                   {"minFilter", kNearest},
-                                   {"wrapS", kClampToEdge},
-                                   {"wrapT", kClampToEdge}});
+    return file.addTexture(
+        image,
+        {{"magFilter", kNearest}, {"minFilter", kNearest}, {"wrapS", kClampToEdge}, {"wrapT", kClampToEdge}});
 }
 
-double ringRadius(std::uint32_t k) { return 0.5 * kPatternPx * std::sqrt((k + 1.0) / (kRings + 1.0)); }
+double ringRadius(std::uint32_t k) {
+    return 0.5 * kPatternPx * std::sqrt((k + 1.0) / (kRings + 1.0));
+}
 
 /// Inner and outer vertices alternate; both radii are the same doubles as the neighbouring rings'.
-void addRing(Mesh& mesh, std::uint32_t ring)
-{
+void addRing(Mesh& mesh, std::uint32_t ring) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
     for (std::uint32_t q = 0; q < kRingQuads; ++q) {
         const Vec2 direction = onCircle(static_cast<double>(q) / kRingQuads);
@@ -42,13 +41,13 @@ void addRing(Mesh& mesh, std::uint32_t ring)
     }
 }
 
-double logLine(std::uint32_t i, std::uint32_t count)
-{
-    return kPatternPx * binaryLog(1.0 + i) / binaryLog(1.0 + count);
+/// On a grid of 2^-13 px, which float holds everywhere in the picture, measured from either side.
+double logLine(std::uint32_t i, std::uint32_t count) {
+    const double line_px = kPatternPx * binaryLog(1.0 + i) / binaryLog(1.0 + count);
+    return std::floor(line_px * 0x1p13 + 0.5) * 0x1p-13;
 }
 
-Mesh logGridVertices()
-{
+Mesh logGridVertices() {
     Mesh mesh;
     for (std::uint32_t j = 0; j <= kRows; ++j) {
         for (std::uint32_t i = 0; i <= kColumns; ++i) {
@@ -58,8 +57,7 @@ Mesh logGridVertices()
     return mesh;
 }
 
-std::vector<std::uint32_t> cellTriangles(std::uint32_t parity)
-{
+std::vector<std::uint32_t> cellTriangles(std::uint32_t parity) {
     std::vector<std::uint32_t> index;
     for (std::uint32_t j = 0; j < kRows; ++j) {
         for (std::uint32_t i = 0; i < kColumns; ++i) {
@@ -73,33 +71,33 @@ std::vector<std::uint32_t> cellTriangles(std::uint32_t parity)
 
 }  // namespace
 
-GltfFile makeZonePlate()
-{
+GltfFile makeZonePlate() {
     GltfFile file;
     Mesh mesh;
     for (std::uint32_t ring = 0; ring < kRings; ++ring) addRing(mesh, ring);
     file.use("KHR_materials_unlit");
-    const int material = file.addMaterial(
-        {{"name", "rings"},
-         {"pbrMetallicRoughness",
-          {{"baseColorTexture", {{"index", addRingPalette(file)}}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
-         {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+    const int material = file.addMaterial({{"name", "rings"},
+                                           {"pbrMetallicRoughness",
+                                            {{"baseColorTexture", {{"index", addRingPalette(file)}}},
+                                             {"metallicFactor", 0.0},
+                                             {"roughnessFactor", 1.0}}},
+                                           {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
     addPixelCamera(file, kPatternPx);
-    file.addNode({{"name", "zone-plate"}, {"mesh", file.addMesh(Json::array({file.addPrimitive(mesh, material)}))}});
+    file.addNode(
+        {{"name", "zone-plate"}, {"mesh", file.addMesh(Json::array({file.addPrimitive(mesh, material)}))}});
     return file;
 }
 
-GltfFile makeLogGrid()
-{
+GltfFile makeLogGrid() {
     GltfFile file;
     const Json attributes = file.addAttributes(logGridVertices());
     Json primitives = Json::array();
     for (const std::uint32_t parity : {0u, 1u}) {
         const double level = parity == 0 ? 1.0 : 0.0;
-        primitives.push_back(
-            {{"attributes", attributes},
-             {"indices", file.addIndices(cellTriangles(parity))},
-             {"material", addUnlitMaterial(file, parity == 0 ? "white" : "black", {level, level, level}, false)}});
+        primitives.push_back({{"attributes", attributes},
+                              {"indices", file.addIndices(cellTriangles(parity))},
+                              {"material", addUnlitMaterial(file, parity == 0 ? "white" : "black",
+                                                            {level, level, level}, false)}});
     }
     addPixelCamera(file, kPatternPx);
     file.addNode({{"name", "log-grid"}, {"mesh", file.addMesh(std::move(primitives))}});

@@ -9,18 +9,15 @@ namespace {
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963, kNoTarget = 0;
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
-void putInteger(std::string& bytes, std::uint32_t value, int width)
-{
+void putInteger(std::string& bytes, std::uint32_t value, int width) {
     for (int i = 0; i < width; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xffu);
 }
 
-void padTo4(std::string& bytes, char filler)
-{
+void padTo4(std::string& bytes, char filler) {
     while (bytes.size() % 4 != 0) bytes += filler;
 }
 
-std::string base64(const std::string& bytes)
-{
+std::string base64(const std::string& bytes) {
     static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -35,12 +32,12 @@ std::string base64(const std::string& bytes)
 }
 
 /// Least and greatest of each component, as the file's floats: what a reader finds is what is stated.
-Json bound(const std::vector<float>& values, int components, bool greatest)
-{
+Json bound(const std::vector<float>& values, int components, bool greatest) {
     Json result = Json::array();
     for (int c = 0; c < components; ++c) {
         float best = values[static_cast<std::size_t>(c)];
-        for (std::size_t i = static_cast<std::size_t>(c); i < values.size(); i += static_cast<std::size_t>(components)) {
+        for (std::size_t i = static_cast<std::size_t>(c); i < values.size();
+             i += static_cast<std::size_t>(components)) {
             best = greatest ? std::max(best, values[i]) : std::min(best, values[i]);
         }
         result.push_back(static_cast<double>(best));
@@ -48,8 +45,7 @@ Json bound(const std::vector<float>& values, int components, bool greatest)
     return result;
 }
 
-std::vector<float> flat(const std::vector<Vec3>& vectors)
-{
+std::vector<float> flat(const std::vector<Vec3>& vectors) {
     std::vector<float> values;
     for (const Vec3& v : vectors) {
         for (const double c : {v.x, v.y, v.z}) values.push_back(static_cast<float>(c));
@@ -57,8 +53,7 @@ std::vector<float> flat(const std::vector<Vec3>& vectors)
     return values;
 }
 
-std::vector<float> flat(const std::vector<Vec2>& vectors)
-{
+std::vector<float> flat(const std::vector<Vec2>& vectors) {
     std::vector<float> values;
     for (const Vec2& v : vectors) {
         for (const double c : {v.x, v.y}) values.push_back(static_cast<float>(c));
@@ -66,8 +61,7 @@ std::vector<float> flat(const std::vector<Vec2>& vectors)
     return values;
 }
 
-std::string chunk(const std::string& type, const std::string& data)
-{
+std::string chunk(const std::string& type, const std::string& data) {
     std::string bytes;
     putInteger(bytes, static_cast<std::uint32_t>(data.size()), 4);
     return bytes + type + data;
@@ -75,21 +69,19 @@ std::string chunk(const std::string& type, const std::string& data)
 
 }  // namespace
 
-GltfFile::GltfFile()
-{
-    json_["asset"] = {{"version", "2.0"}, {"generator", "edgewise make_scenes " + std::to_string(kGeneratorVersion)}};
+GltfFile::GltfFile() {
+    json_["asset"] = {{"version", "2.0"},
+                      {"generator", "edgewise make_scenes " + std::to_string(kGeneratorVersion)}};
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
 }
 
-int GltfFile::add(const char* array, Json element)
-{
+int GltfFile::add(const char* array, Json element) {
     json_[array].push_back(std::move(element));
     return static_cast<int>(json_[array].size()) - 1;
 }
 
-int GltfFile::addView(const std::string& bytes, int target)
-{
+int GltfFile::addView(const std::string& bytes, int target) {
     padTo4(binary_, '\0');
     Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
     if (target != kNoTarget) view["target"] = target;
@@ -97,14 +89,12 @@ int GltfFile::addView(const std::string& bytes, int target)
     return add("bufferViews", std::move(view));
 }
 
-int GltfFile::addAccessor(const std::string& bytes, int target, Json accessor)
-{
+int GltfFile::addAccessor(const std::string& bytes, int target, Json accessor) {
     accessor["bufferView"] = addView(bytes, target);
     return add("accessors", std::move(accessor));
 }
 
-int GltfFile::addFloats(const std::vector<float>& values, int components)
-{
+int GltfFile::addFloats(const std::vector<float>& values, int components) {
     std::string bytes;
     for (const float value : values) putInteger(bytes, std::bit_cast<std::uint32_t>(value), 4);
     return addAccessor(bytes, kVertexTarget,
@@ -115,8 +105,7 @@ int GltfFile::addFloats(const std::vector<float>& values, int components)
                         {"max", bound(values, components, true)}});
 }
 
-int GltfFile::addIndices(const std::vector<std::uint32_t>& index)
-{
+int GltfFile::addIndices(const std::vector<std::uint32_t>& index) {
     // 65,535 itself is the primitive restart value: it must not appear as a 16-bit index.
     const std::uint32_t last = *std::max_element(index.begin(), index.end());
     const bool narrow = last < 0xffffu;
@@ -130,8 +119,7 @@ int GltfFile::addIndices(const std::vector<std::uint32_t>& index)
                         {"max", {last}}});
 }
 
-Json GltfFile::addAttributes(const Mesh& mesh)
-{
+Json GltfFile::addAttributes(const Mesh& mesh) {
     Json attributes;
     attributes["POSITION"] = addFloats(flat(mesh.position), 3);
     if (!mesh.normal.empty()) attributes["NORMAL"] = addFloats(flat(mesh.normal), 3);
@@ -148,44 +136,44 @@ Json GltfFile::addAttributes(const Mesh& mesh)
     return attributes;
 }
 
-Json GltfFile::addPrimitive(const Mesh& mesh, int material)
-{
+Json GltfFile::addPrimitive(const Mesh& mesh, int material) {
     Json primitive = {{"attributes", addAttributes(mesh)}, {"material", material}};
     if (!mesh.index.empty()) primitive["indices"] = addIndices(mesh.index);
     return primitive;
 }
 
-int GltfFile::addImage(const std::string& png)
-{
+int GltfFile::addImage(const std::string& png) {
     return add("images", {{"bufferView", addView(png, kNoTarget)}, {"mimeType", "image/png"}});
 }
 
-int GltfFile::addTexture(int image, Json sampler)
-{
+int GltfFile::addTexture(int image, Json sampler) {
     return add("textures", {{"sampler", add("samplers", std::move(sampler))}, {"source", image}});
 }
 
-int GltfFile::addMaterial(Json material) { return add("materials", std::move(material)); }
+int GltfFile::addMaterial(Json material) {
+    return add("materials", std::move(material));
+}
 
-int GltfFile::addMesh(Json primitives) { return add("meshes", {{"primitives", std::move(primitives)}}); }
+int GltfFile::addMesh(Json primitives) {
+    return add("meshes", {{"primitives", std::move(primitives)}});
+}
 
-int GltfFile::addCamera(Json camera) { return add("cameras", std::move(camera)); }
+int GltfFile::addCamera(Json camera) {
+    return add("cameras", std::move(camera));
+}
 
-int GltfFile::addNode(Json node)
-{
+int GltfFile::addNode(Json node) {
     const int index = add("nodes", std::move(node));
     json_["scenes"][0]["nodes"].push_back(index);
     return index;
 }
 
-void GltfFile::use(const std::string& extension)
-{
+void GltfFile::use(const std::string& extension) {
     Json& used = json_["extensionsUsed"];
     if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
 }
 
-std::string GltfFile::glb() const
-{
+std::string GltfFile::glb() const {
     Json json = json_;
     json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
     std::string text = json.dump(), binary = binary_;
@@ -198,8 +186,7 @@ std::string GltfFile::glb() const
     return header + chunks;
 }
 
-std::string GltfFile::gltf() const
-{
+std::string GltfFile::gltf() const {
     Json json = json_;
     const std::string uri = "data:application/octet-stream;base64," + base64(binary_);
     json["buffers"] = Json::array({{{"byteLength", binary_.size()}, {"uri", uri}}});

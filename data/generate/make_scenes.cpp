@@ -8,8 +8,7 @@
 
 namespace {
 
-void write(const std::filesystem::path& path, const std::string& bytes)
-{
+void write(const std::filesystem::path& path, const std::string& bytes) {
     std::filesystem::create_directories(path.parent_path());
     std::ofstream file(path, std::ios::binary);
     file << bytes;
@@ -18,8 +17,7 @@ void write(const std::filesystem::path& path, const std::string& bytes)
     std::cout << path.string() << ": " << bytes.size() << " bytes\n";
 }
 
-void writeAll(const std::filesystem::path& folder)
-{
+void writeAll(const std::filesystem::path& folder) {
     for (const auto* recipes : {&edgewise::scenes::namedRecipes(), &edgewise::scenes::degenerateRecipes()}) {
         for (const auto& recipe : *recipes) {
             if (recipe.ships) write(folder / recipe.file, recipe.bytes());
@@ -30,8 +28,7 @@ void writeAll(const std::filesystem::path& folder)
 
 }  // namespace
 
-int main(int argc, char** argv)
-{
+int main(int argc, char** argv) {
     if (argc != 2) {
         std::cerr << "usage: make_scenes FOLDER\n";
         return 2;

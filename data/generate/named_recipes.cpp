@@ -6,8 +6,7 @@
 namespace edgewise::scenes {
 namespace {
 
-Recipe torus(const std::string& size, std::uint32_t around, std::uint32_t tube, bool ships)
-{
+Recipe torus(const std::string& size, std::uint32_t around, std::uint32_t tube, bool ships) {
     const std::string name = "torus-" + size;
     return {.name = name,
             .file = name + ".glb",
@@ -17,8 +16,7 @@ Recipe torus(const std::string& size, std::uint32_t around, std::uint32_t tube, 
             .bytes = [=] { return makeTorus(around, tube).glb(); }};
 }
 
-Recipe randomTriangles(const std::string& size, std::uint32_t count, bool ships)
-{
+Recipe randomTriangles(const std::string& size, std::uint32_t count, bool ships) {
     const std::string name = "random-" + size;
     return {.name = name,
             .file = name + ".glb",
@@ -28,8 +26,7 @@ Recipe randomTriangles(const std::string& size, std::uint32_t count, bool ships)
             .bytes = [=] { return makeRandomTriangles(count).glb(); }};
 }
 
-std::vector<Recipe> makeNamedRecipes()
-{
+std::vector<Recipe> makeNamedRecipes() {
     return {
         {.name = "zone-plate",
          .file = "zone-plate.glb",
@@ -58,8 +55,7 @@ std::vector<Recipe> makeNamedRecipes()
 
 }  // namespace
 
-const std::vector<Recipe>& namedRecipes()
-{
+const std::vector<Recipe>& namedRecipes() {
     static const std::vector<Recipe> recipes = makeNamedRecipes();
     return recipes;
 }

@@ -6,15 +6,13 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586476925;
 
 /// Taylor polynomials for |x| <= pi/4, innermost term first.
-double sinSeries(double x)
-{
+double sinSeries(double x) {
     double sum = 1.0;
     for (int k = 18; k >= 2; k -= 2) sum = 1.0 - x * x / (k * (k + 1)) * sum;
     return x * sum;
 }
 
-double cosSeries(double x)
-{
+double cosSeries(double x) {
     double sum = 1.0;
     for (int k = 19; k >= 1; k -= 2) sum = 1.0 - x * x / (k * (k + 1)) * sum;
     return sum;
@@ -26,8 +24,7 @@ struct DiskPoint {
     double r2;
 };
 
-DiskPoint randomInDisk(SplitMix64& random)
-{
+DiskPoint randomInDisk(SplitMix64& random) {
     for (;;) {
         const double x = random.between(-1.0, 1.0);
         const double y = random.between(-1.0, 1.0);
@@ -38,21 +35,23 @@ DiskPoint randomInDisk(SplitMix64& random)
 
 }  // namespace
 
-Vec2 onCircle(double turns)
-{
+Vec2 onCircle(double turns) {
     const double quarter = std::floor(4.0 * turns + 0.5);
     const double x = kTwoPi * (turns - 0.25 * quarter);
     const double c = cosSeries(x), s = sinSeries(x);
     switch (static_cast<long long>(quarter) & 3) {
-        case 0: return {c, s};
-        case 1: return {-s, c};
-        case 2: return {-c, -s};
-        default: return {s, -c};
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
     }
 }
 
-double binaryLog(double x)
-{
+double binaryLog(double x) {
     double log = 0.0;
     for (; x >= 2.0; x *= 0.5) log += 1.0;
     for (double digit = 0.5; digit >= 0x1p-48; digit *= 0.5) {
@@ -64,8 +63,7 @@ double binaryLog(double x)
     return log;
 }
 
-std::uint64_t SplitMix64::next()
-{
+std::uint64_t SplitMix64::next() {
     state_ += 0x9e3779b97f4a7c15u;
     std::uint64_t z = state_;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -73,15 +71,13 @@ std::uint64_t SplitMix64::next()
     return z ^ (z >> 31);
 }
 
-Vec2 randomOnCircle(SplitMix64& random)
-{
+Vec2 randomOnCircle(SplitMix64& random) {
     const DiskPoint d = randomInDisk(random);
     const double scale = 1.0 / std::sqrt(d.r2);
     return {scale * d.p.x, scale * d.p.y};
 }
 
-Axes randomAxes(SplitMix64& random)
-{
+Axes randomAxes(SplitMix64& random) {
     const DiskPoint a = randomInDisk(random);
     const DiskPoint b = randomInDisk(random);
     const double scale = std::sqrt((1.0 - a.r2) / b.r2);

@@ -8,21 +8,18 @@ namespace {
 constexpr double kPi = 3.141592653589793238;
 constexpr double kPicturePx = 1024.0;
 
-Vec3 randomCentre(SplitMix64& random, double margin)
-{
+Vec3 randomCentre(SplitMix64& random, double margin) {
     const double x = random.between(-margin, kPicturePx + margin);
     const double y = random.between(-margin, kPicturePx + margin);
     return {x, y, random.between(-0.5 * kPicturePx, 0.5 * kPicturePx)};
 }
 
-Vec3 randomCorner(SplitMix64& random, Vec3 centre, double radius, const Axes& plane)
-{
+Vec3 randomCorner(SplitMix64& random, Vec3 centre, double radius, const Axes& plane) {
     const Vec2 p = randomOnCircle(random);
     return centre + radius * (p.x * plane.u + p.y * plane.v);
 }
 
-Rgba8 randomColor(SplitMix64& random)
-{
+Rgba8 randomColor(SplitMix64& random) {
     const std::uint64_t bits = random.next();
     const auto byte = [bits](int shift) { return static_cast<std::uint8_t>((bits >> shift) & 0xffu); };
     return {byte(0), byte(8), byte(16), 255};
@@ -30,14 +27,12 @@ Rgba8 randomColor(SplitMix64& random)
 
 }  // namespace
 
-double greatestCircumradius(std::uint32_t count)
-{
+double greatestCircumradius(std::uint32_t count) {
     const double m_over_width = std::sqrt(kDepthComplexity * 16.0 * kPi / (7.0 * count));
     return kPicturePx * m_over_width / (1.0 - 2.0 * m_over_width);
 }
 
-GltfFile makeRandomTriangles(std::uint32_t count)
-{
+GltfFile makeRandomTriangles(std::uint32_t count) {
     SplitMix64 random(count);
     const double greatest = greatestCircumradius(count);
     Soup soup;

@@ -9,12 +9,12 @@
 namespace edgewise::scenes {
 
 struct Recipe {
-    std::string name;            ///< what the user types; degenerate scenes have none and are opened as files
-    std::string file;            ///< below data/, or the file's name in the cache
-    std::string what;            ///< one line
+    std::string name;  ///< what the user types; degenerate scenes have none and are opened as files
+    std::string file;  ///< below data/, or the file's name in the cache
+    std::string what;  ///< one line
     std::uint64_t triangles = 0;
     int width_px = 1024, height_px = 1024;  ///< the picture it is made for
-    bool ships = true;           ///< a file of data/; else made on demand
+    bool ships = true;                      ///< a file of data/; else made on demand
     std::function<std::string()> bytes;
 };
 

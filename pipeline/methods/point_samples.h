@@ -1,0 +1,48 @@
+// The front-most owner at exact sample positions: what `none` and `ssaa` see.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "analytic/screen_triangle.h"
+#include "pipeline/film.h"
+
+namespace edgewise {
+
+/// Sample (a, b) of a pixel lies at ((a + 1/2)/K, (b + 1/2)/K), rounded to the grid of 2^-32 px where K is no power of 2.
+double sampleOffsetPx(int a, int per_side);
+
+/// Looks up samples of one projected scene. Every decision is exact:
+/// inside by the orientation of grid points, a point on an edge belonging to the triangle whose top or left edge it is,
+/// so that each point of a shared edge has one owner; nearer by the sign of the depth planes' difference; equal depth to
+/// the lower index.
+class PointSampler {
+  public:
+    /// K x K samples a pixel, for pixels of `box`.
+    PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side);
+
+    /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by tiles.
+    std::vector<Owner> sample(const PixelBox& window) const;
+
+    /// Depth decisions that the rounded planes left open.
+    std::uint64_t exactDepths() const { return exact_depths_; }
+
+  private:
+    friend class TileSampler;
+    PixelBox tileBox(std::size_t tile) const;
+    void binTriangles();
+    template <class Visit>
+    void visitTiles(const ScreenTriangle& triangle, const Visit& visit) const;
+
+    const ScreenScene& scene_;
+    PixelBox box_;
+    int per_side_;
+    int tile_px_;
+    int tiles_x_, tiles_y_;
+    std::vector<std::size_t> first_;        ///< by tile, into binned_
+    std::vector<std::uint32_t> binned_;     ///< triangles of each tile, ascending
+    mutable std::atomic<std::uint64_t> exact_depths_{0};
+};
+
+}  // namespace edgewise

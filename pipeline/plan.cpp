@@ -1,0 +1,96 @@
+#include "pipeline/plan.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <bit>
+#include <unordered_map>
+
+namespace edgewise {
+namespace {
+
+struct ColorHash {
+    std::size_t operator()(const glm::dvec3& c) const {
+        std::uint64_t h = 0;
+        for (glm::length_t k = 0; k < 3; ++k)
+            h = (h ^ std::bit_cast<std::uint64_t>(c[k] + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 31;
+        return h;
+    }
+};
+
+std::vector<std::optional<glm::dvec3>> constantColors(const ScreenPieces& pieces, const Shading& shading) {
+    std::vector<std::optional<glm::dvec3>> colors(pieces.first.size() - 1);
+    tbb::parallel_for(std::size_t{0}, colors.size(), [&](std::size_t i) {
+        const auto owner = static_cast<Owner>(i);
+        if (pieces.first[i] != pieces.first[i + 1]) colors[i] = shading.constant(owner);
+    });
+    return colors;
+}
+
+/// Owners of one constant colour are represented by the lowest of them.
+OwnerClasses classesOf(const std::vector<std::optional<glm::dvec3>>& constant, std::size_t& merged,
+                       std::size_t& classes) {
+    OwnerClasses out;
+    std::unordered_map<glm::dvec3, Owner, ColorHash> first;
+    out.representative.resize(constant.size());
+    for (std::size_t i = 0; i < constant.size(); ++i) {
+        const auto owner = static_cast<Owner>(i);
+        out.representative[i] = constant[i] ? first.try_emplace(*constant[i], owner).first->second : owner;
+        merged += constant[i].has_value();
+    }
+    classes = first.size();
+    if (classes == merged) out.representative.clear();
+    return out;
+}
+
+std::string fetchReason(const Scene& scene) {
+    std::size_t textured = 0, unlit = 0;
+    for (const Material& m : scene.materials) {
+        textured += m.base_color_texture != kNone;
+        unlit += m.unlit;
+    }
+    return fmt::format("{} of {} materials have a texture, {} are unlit", textured, scene.materials.size(), unlit);
+}
+
+}  // namespace
+
+const std::vector<std::string>& skippableStages() {
+    static const std::vector<std::string> names{"visibility", "piercing",  "cancel", "interior",
+                                                "fetch",      "occlusion", "empty"};
+    return names;
+}
+
+Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces, const Shading& shading,
+              const RenderOptions& options) {
+    Plan plan;
+    const auto add = [&](const char* stage, bool runs, std::string why) {
+        if (options.keeps(stage)) runs = true, why = "forced by --no-skip";
+        plan.entries.push_back({stage, runs, std::move(why)});
+        return !runs;
+    };
+    const bool one_plane = screen.planes.size() < 2;
+    plan.visibility.cell.certify = add("visibility", false, "not in cells that one sheet of triangles covers");
+    plan.visibility.cell.every_depth_line = !add(
+        "piercing", false, one_plane ? "one plane: nothing pierces" : "only for pairs that change order in a cell");
+    plan.visibility.cell.occlusion = add("occlusion", false, "what one triangle hides in a whole cell is dropped");
+    plan.visibility.skip_empty = add("empty", false, "cells without triangles cost nothing");
+    plan.weights.skip_interior = add("interior", false, "a support without segments is its owner's");
+
+    std::size_t merged = 0, classes = 0;
+    plan.constant = constantColors(pieces, shading);
+    OwnerClasses by_color = classesOf(plan.constant, merged, classes);
+    const bool cancel = !by_color.representative.empty();
+    const std::string cancel_why = cancel ? fmt::format("{} triangles have {} constant colours: segments between "
+                                                        "equal ones are not integrated", merged, classes)
+                                          : "no two triangles have one constant colour";
+    if (add("cancel", !cancel, cancel_why)) plan.classes = std::move(by_color);
+    plan.weights.skip_cancelling = !options.keeps("cancel");
+    const bool fetch = merged == 0;
+    const std::string fetch_why = fetch ? "every colour varies: " + fetchReason(scene)
+                                        : fmt::format("{} triangles of constant colour fetch nothing; {}", merged,
+                                                      fetchReason(scene));
+    if (!add("fetch", fetch, fetch_why)) plan.constant.clear();
+    return plan;
+}
+
+}  // namespace edgewise

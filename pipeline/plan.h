@@ -1,0 +1,27 @@
+// The plan: which stages run for a scene, and why the others do not. Data, printed by --explain and `edgewise info`.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/methods/method.h"
+#include "pipeline/shade.h"
+#include "pipeline/visibility.h"
+#include "pipeline/weights.h"
+
+namespace edgewise {
+
+struct Plan {
+    std::vector<PlanEntry> entries;
+    VisibilityStageOptions visibility;
+    WeightOptions weights;
+    OwnerClasses classes;                          ///< empty where nothing cancels
+    std::vector<std::optional<glm::dvec3>> constant;  ///< by owner; empty where every colour is fetched
+};
+
+/// Names that --no-skip takes.
+const std::vector<std::string>& skippableStages();
+
+Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces, const Shading& shading,
+              const RenderOptions& options);
+
+}  // namespace edgewise
