@@ -2,10 +2,10 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "pipeline/error.h"
 
@@ -32,9 +32,11 @@ struct Samples {
 
 void needSize(const OIIO::ImageSpec& spec, const std::string& what) {
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw InputError(what, "has no pixels");
-    const std::uint64_t texels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    const std::uint64_t texels =
+        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
     if (texels > kMaxImageTexels)
-        throw FailureError(what, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxImageTexels));
+        throw FailureError(
+            what, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxImageTexels));
 }
 
 template <class T>
