@@ -180,5 +180,23 @@ TEST(DecodeImage, GreyAlphaAndSixteenBits) {
     EXPECT_EQ(decode(test::tinyPng(2, 1, 1, 0, "\x40")).texels[1], glm::vec4(1.0f)) << "one bit";
 }
 
+TEST(DecodeImage, OtherPngChunksAreLeftOutAndDamageIsFound) {
+    const std::string png = test::tinyPng(1, 1, 8, 2, "abc");
+    const std::string with_gamma =
+        png.substr(0, 33) + test::pngChunk("gAMA", std::string("\0\1\0\0", 4)) + png.substr(33);
+    EXPECT_EQ(decode(with_gamma).texels, decode(png).texels);
+    for (std::size_t length = 0; length < png.size(); ++length)
+        EXPECT_THROW(decode(png.substr(0, length)), InputError) << length;
+    for (std::size_t at = 0; at < png.size(); ++at) {
+        std::string damaged = png;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+        EXPECT_THROW(decode(damaged), InputError) << at;
+    }
+}
+
+TEST(DecodeImage, MorePixelsThanTheLimitAreAFailure) {
+    EXPECT_THROW(decode(test::tinyPng(60000, 60000, 8, 0, "")), FailureError);
+}
+
 }  // namespace
 }  // namespace edgewise
