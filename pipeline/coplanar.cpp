@@ -92,14 +92,17 @@ struct Candidate {
     auto order() const { return std::tie(node, key, index); }
 };
 
-Candidate makeCandidate(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle) {
+/// Candidates of triangles [begin, end) of a geometry.
+void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begin, std::size_t end, Candidate* out) {
     const Geometry& g = scene.geometry[geometry];
-    const Corners p = fileCorners(g, triangle);
-    Candidate candidate{0, g.node, g.first_triangle + triangle, kNone, triangle};
-    if (!hasArea(p)) return candidate;
-    candidate.geometry = geometry;
-    candidate.key = planeKey(p[0], p[1], p[2]).value_or(0);
-    return candidate;
+    std::vector<Corners> corners;
+    for (std::size_t t = begin; t < end; ++t) corners.push_back(fileCorners(g, static_cast<std::uint32_t>(t)));
+    const auto keys = planeKeys(corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto triangle = static_cast<std::uint32_t>(begin + i);
+        const std::uint32_t place = hasArea(corners[i]) ? geometry : kNone;
+        out[i] = {keys[i].value_or(0), g.node, g.first_triangle + triangle, place, triangle};
+    }
 }
 
 std::vector<Candidate> sortedCandidates(const Scene& scene) {
@@ -107,8 +110,7 @@ std::vector<Candidate> sortedCandidates(const Scene& scene) {
     for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
         const Geometry& geometry = scene.geometry[g];
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
-            for (std::size_t t = range.begin(); t < range.end(); ++t)
-                all[geometry.first_triangle + t] = makeCandidate(scene, g, static_cast<std::uint32_t>(t));
+            makeCandidates(scene, g, range.begin(), range.end(), all.data() + geometry.first_triangle + range.begin());
         });
     }
     std::erase_if(all, [](const Candidate& c) { return c.geometry == kNone; });
