@@ -7,6 +7,7 @@
 #include "pipeline/cli/command_line.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/report.h"
+#include "pipeline/error.h"
 #include "pipeline/version.h"
 
 namespace edgewise::cli {
@@ -35,6 +36,11 @@ void parseAndRun(int argc, char** argv) {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
         program.exit(help_or_version);
+    } catch (const CLI::RequiredError&) {
+        // "A subcommand is required" is no help to who misspelt one.
+        if (const auto unknown = program.remaining(); !unknown.empty())
+            throw InputError(unknown.front(), "is no command; `edgewise --help` lists them");
+        throw;
     }
 }
 

@@ -40,7 +40,7 @@ TEST(Lists, HaveOneLineAnEntry) {
     for (const char* list : {"methods", "filters", "scenes"}) {
         const ProgramRun run = runProgram({list});
         EXPECT_EQ(run.status, 0) << run.err;
-        EXPECT_GT(lines(run.out).size(), 2u) << list;
+        EXPECT_GT(lines(run.out).size(), 1u) << list;
     }
 }
 

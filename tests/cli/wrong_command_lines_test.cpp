@@ -19,9 +19,11 @@ std::ostream& operator<<(std::ostream& out, const WrongCase& wrong) {
     return out;
 }
 
-/// `render torus-20k -o a.exr` at a small size with more arguments behind.
+Arguments renderScene(const std::string& scene) { return {"render", scene, "-o", "a.exr", "--method", "none"}; }
+
+/// A command line that is right, with more arguments behind.
 Arguments renderWith(Arguments more) {
-    Arguments arguments{"render", "torus-20k", "-o", "a.exr", "--method", "none"};
+    Arguments arguments = renderScene("torus-20k");
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -114,12 +116,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Input, WrongCommandLine,
-    testing::Values(WrongCase{{"render", "nowhere.glb", "-o", "a.exr"}, "nowhere.glb"},
-                    WrongCase{{"render", "empty.glb", "-o", "a.exr"}, "empty.glb"},
-                    WrongCase{{"render", "text.gltf", "-o", "a.exr"}, "text.gltf"},
-                    WrongCase{{"render", "scene.txt", "-o", "a.exr"}, "scene.txt"},
-                    WrongCase{{"render", ".", "-o", "a.exr"}, "."},
-                    WrongCase{{"render", "two\nlines", "-o", "a.exr"}, "lines"},
+    testing::Values(WrongCase{renderScene("nowhere.glb"), "nowhere.glb"},
+                    WrongCase{renderScene("empty.glb"), "empty.glb"},
+                    WrongCase{renderScene("text.gltf"), "text.gltf"},
+                    WrongCase{renderScene("scene.txt"), "scene.txt"},
+                    WrongCase{renderScene("."), "."},
+                    WrongCase{renderScene("two\nlines"), "lines"},
                     WrongCase{renderWith({"--camera", "99"}), "99"}, WrongCase{renderWith({"--camera", "nobody"}), "nobody"},
                     WrongCase{renderWith({"--scene", "7"}), "7"},
                     WrongCase{renderWith({"--target", "0,0,1"}), "--target"},
