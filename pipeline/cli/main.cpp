@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <span>
+#include <string>
 
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/command_line.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/report.h"
+#include "pipeline/error.h"
 #include "pipeline/version.h"
 
 namespace edgewise::cli {
@@ -17,17 +21,26 @@ Exit status: 0 done; 1 it failed (device, memory, a stated limit met); 2 the com
 130 interrupted. Errors are single lines on standard error: `edgewise: error: WHAT: WHY`.)";
 
 void parseAndRun(int argc, char** argv) {
+    const std::string command_line = quoteCommandLine(std::span(argv + 1, argv + argc));
     CLI::App program("Exact analytic antialiasing: closed-form prefilter weights over exact visibility.", "edgewise");
     program.set_version_flag("--version", fmt::format("edgewise {}", version()), "print the version and exit");
     program.set_help_flag("-h,--help", "print this help and exit");
     program.require_subcommand(1);
     program.footer(kFooter);
+    addRender(program, command_line);
     addInfo(program);
+    addMethods(program);
+    addFilters(program);
     addScenes(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
         program.exit(help_or_version);
+    } catch (const CLI::RequiredError&) {
+        // "A subcommand is required" is no help to who misspelt one.
+        if (const auto unknown = program.remaining(); !unknown.empty())
+            throw InputError(unknown.front(), "is no command; `edgewise --help` lists them");
+        throw;
     }
 }
 

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/atomic_file.h"
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/filter_options.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/method_options.h"
+#include "pipeline/cli/parse_values.h"
+#include "pipeline/cli/picture_options.h"
+#include "pipeline/cli/statistics.h"
+#include "pipeline/error.h"
+#include "pipeline/progress_bar.h"
+#include "pipeline/version.h"
+#include "pipeline/write_image.h"
+
+namespace edgewise::cli {
+namespace {
+
+constexpr double kMaxExposureEv = 1000.0;  // 2^1000 is still a double
+
+struct RenderArguments {
+    PictureArguments picture;
+    FilterArguments filter;
+    MethodArguments making;
+    std::string method = "nsaa";
+    std::vector<std::string> outputs;
+    std::optional<std::string> exposure, stats;
+    bool explain = false, quiet = false;
+    std::string command_line;
+};
+
+double readExposure(const std::optional<std::string>& text) {
+    const double ev = text ? parseNumber("--exposure", *text) : 0.0;
+    if (std::abs(ev) > kMaxExposureEv)
+        throw InputError("--exposure", fmt::format("{} is not within +-{}", ev, kMaxExposureEv));
+    return ev;
+}
+
+void checkOutputs(const RenderArguments& arguments) {
+    for (const std::string& output : arguments.outputs) {
+        checkOutputPath(output);
+        imageFormat(output);
+    }
+    if (arguments.stats) checkOutputPath(*arguments.stats);
+}
+
+/// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in its file's
+/// format.
+void requireMemoryFor(const PixelBox& crop) {
+    constexpr double kBytesPerPixel = 4 * 8 + 4 + 2 * 5 * 4;  // RGBA, edge; five floats, raw and compressed
+    const double needed = kBytesPerPixel * crop.width() * crop.height();
+    const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (needed > machine)
+        throw FailureError("memory", fmt::format("a picture of {}x{} needs {:.0f} MiB, this machine has {:.0f}",
+                                                 crop.width(), crop.height(), needed / 0x1p20, machine / 0x1p20));
+}
+
+WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const MethodResult& result,
+                              const RenderOptions& options) {
+    WriteOptions write;
+    write.width = film.width;
+    write.height = film.height;
+    write.exposure_ev = readExposure(arguments.exposure);
+    write.metadata = {{"version", version()},
+                      {"command", arguments.command_line},
+                      {"device", result.device},
+                      {"seed", fmt::format("{}", options.seed)}};
+    return write;
+}
+
+void writeOutputs(const RenderArguments& arguments, const MethodResult& result, const WriteOptions& write) {
+    for (const std::string& output : arguments.outputs) {
+        throwIfInterrupted();
+        writeImage(output, result.image, write);
+    }
+    throwIfInterrupted();
+    if (arguments.stats) writeAtomically(*arguments.stats, statisticsJson(result));
+}
+
+void render(const RenderArguments& arguments) {
+    checkOutputs(arguments);
+    readExposure(arguments.exposure);
+    const Prefilter filter = readFilter(arguments.filter);
+    const MethodSpec method = parseMethod(arguments.method);
+    const RenderOptions options = readMethodOptions(arguments.making);
+    checkDevice(arguments.making, method);
+
+    std::optional<tbb::global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+
+    ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
+    const Picture picture = loadPicture(arguments.picture, progress);
+    warnOfIgnored(picture.scene);
+    requireMemoryFor(picture.film.crop);
+    makeDumpFolder(options);
+    const MethodResult result =
+        runMethod(method, {picture.scene, picture.camera, picture.film, filter, options, progress});
+    writeOutputs(arguments, result, makeWriteOptions(arguments, picture.film, result, options));
+    if (arguments.explain) fmt::print("{}", planInWords(result.plan));
+}
+
+}  // namespace
+
+void addRender(CLI::App& program, const std::string& command_line) {
+    CLI::App* command = program.add_subcommand("render", "one image");
+    auto arguments = std::make_shared<RenderArguments>();
+    arguments->command_line = command_line;
+    addPictureOptions(*command, arguments->picture);
+    command
+        ->add_option("-o,--output", arguments->outputs,
+                     ".exr (float32, linear) or .png (8-bit, sRGB); repeated: the same image in each")
+        ->type_name("OUT.exr|OUT.png")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_option("--method", arguments->method, "`edgewise methods` lists them")
+        ->type_name("M")
+        ->capture_default_str();
+    addFilterOptions(*command, arguments->filter);
+    addMethodOptions(*command, arguments->making);
+    command->add_option("--exposure", arguments->exposure, "PNG only [0]")->type_name("EV");
+    command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")->type_name("FILE.json");
+    command->add_flag("--explain", arguments->explain, "print the plan in words");
+    command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
+    command->callback([arguments] { render(*arguments); });
+}
+
+}  // namespace edgewise::cli

@@ -1,0 +1,145 @@
+// `edgewise render` as scripts rely on it: the same file every time, both EXR windows, crops, statistics, Ctrl-C.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pipeline/version.h"
+#include "tests/cli/run_program.h"
+
+namespace edgewise::test {
+namespace {
+
+struct Picture {
+    OIIO::ImageSpec spec;
+    std::vector<float> values;
+    const float* at(int x, int y) const {
+        return &values[static_cast<std::size_t>((y - spec.y) * spec.width + (x - spec.x)) * spec.nchannels];
+    }
+};
+
+Picture readPicture(const std::filesystem::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) throw std::runtime_error(OIIO::geterror());
+    Picture picture{input->spec(), {}};
+    picture.values.resize(static_cast<std::size_t>(picture.spec.image_pixels()) * picture.spec.nchannels);
+    input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, picture.values.data());
+    return picture;
+}
+
+/// Renders `torus-20k` at 60x40 with more arguments behind; fails the test when the program does.
+ProgramRun render(const TemporaryFolder& folder, const std::string& output, Arguments more = {}) {
+    Arguments arguments{"render", "torus-20k", "-o", output, "--size", "60x40", "--method", "ssaa:2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ProgramRun run = runProgram(arguments, folder.path());
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run;
+}
+
+TEST(Render, TheSameCommandGivesTheSameFile) {
+    for (const std::string name : {"a.exr", "a.png"}) {
+        const TemporaryFolder first, second;
+        render(first, name);
+        render(second, name);
+        EXPECT_EQ(readFile(first / name), readFile(second / name)) << name;
+        EXPECT_EQ(first.names(), std::vector<std::string>{name});
+    }
+}
+
+TEST(Render, ThreadsDoNotEnterThePixels) {
+    const TemporaryFolder folder;
+    render(folder, "one.exr", {"--threads", "1"});
+    render(folder, "all.exr");
+    EXPECT_EQ(readPicture(folder / "one.exr").values, readPicture(folder / "all.exr").values);
+}
+
+TEST(Render, ACropIsThatPartOfTheWholeBitForBit) {
+    const TemporaryFolder folder;
+    render(folder, "whole.exr");
+    render(folder, "crop.exr", {"--crop", "17,5,43,31"});
+    const Picture whole = readPicture(folder / "whole.exr");
+    const Picture crop = readPicture(folder / "crop.exr");
+    EXPECT_EQ(whole.spec.roi(), OIIO::ROI(0, 60, 0, 40, 0, 1, 0, 5));
+    EXPECT_EQ(crop.spec.roi(), OIIO::ROI(17, 43, 5, 31, 0, 1, 0, 5));
+    EXPECT_EQ(crop.spec.roi_full(), OIIO::ROI(0, 60, 0, 40, 0, 1, 0, 5));
+    int lit = 0;
+    for (int y = 5; y < 31; ++y) {
+        for (int x = 17; x < 43; ++x) {
+            for (int c = 0; c < 5; ++c) EXPECT_EQ(crop.at(x, y)[c], whole.at(x, y)[c]) << x << ' ' << y << ' ' << c;
+            lit += crop.at(x, y)[3] > 0.0f;
+        }
+    }
+    EXPECT_GT(lit, 26 * 26 / 4);  // the crop did show the torus
+}
+
+TEST(Render, MetadataSaysWhatWasDone) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"--seed", "11"});
+    const OIIO::ImageSpec spec = readPicture(folder / "a.exr").spec;
+    EXPECT_EQ(spec.get_string_attribute("edgewise:version"), version());
+    EXPECT_EQ(spec.get_string_attribute("edgewise:command"),
+              "edgewise render torus-20k -o a.exr --size 60x40 --method ssaa:2 --seed 11");
+    EXPECT_EQ(spec.get_string_attribute("edgewise:device"), "cpu");
+    EXPECT_EQ(spec.get_string_attribute("edgewise:seed"), "11");
+}
+
+TEST(Render, SeveralOutputsAreOneImage) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"-o", "a.png", "--exposure", "-1"});
+    const Picture exr = readPicture(folder / "a.exr");
+    const Picture png = readPicture(folder / "a.png");
+    EXPECT_EQ(png.spec.nchannels, 3);
+    EXPECT_EQ(png.spec.width, exr.spec.width);
+    EXPECT_EQ(png.spec.height, exr.spec.height);
+}
+
+TEST(Render, BackgroundFillsWhatNothingCovers) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"--background", "0.25,0.5,2"});
+    const Picture picture = readPicture(folder / "a.exr");
+    const float* corner = picture.at(0, 0);
+    EXPECT_EQ(corner[0], 0.25f);
+    EXPECT_EQ(corner[1], 0.5f);
+    EXPECT_EQ(corner[2], 2.0f);
+    EXPECT_EQ(corner[3], 0.0f);
+    EXPECT_EQ(corner[4], 0.0f);
+}
+
+TEST(Render, StatisticsAreJson) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"--stats", "a.json"});
+    const auto stats = nlohmann::json::parse(readFile(folder / "a.json"));
+    EXPECT_TRUE(stats.at("stages").is_object());
+    EXPECT_FALSE(stats.at("stages").empty());
+    EXPECT_TRUE(stats.at("counts").is_object());
+    EXPECT_GT(stats.at("peak_mib").get<double>(), 0.0);
+    for (const auto& entry : stats.at("plan")) {
+        EXPECT_TRUE(entry.at("stage").is_string());
+        EXPECT_TRUE(entry.at("runs").is_boolean());
+        EXPECT_TRUE(entry.at("why").is_string());
+    }
+}
+
+TEST(Render, NothingIsDrawnWhereThereIsNoTerminal) {
+    const TemporaryFolder folder;
+    const ProgramRun run = render(folder, "a.exr");
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.err, "");
+}
+
+TEST(Render, CtrlCEndsWith130AndLeavesNothing) {
+    const TemporaryFolder folder;
+    // Far more work than the interrupt waits for, on any machine: 64 Mpx of 256 samples each.
+    const ProgramRun run = runProgram(
+        {"render", "torus-20k", "-o", "a.exr", "--size", "8192x8192", "--method", "ssaa:16", "--stats", "a.json"},
+        folder.path(), 500);
+    EXPECT_EQ(run.status, 130) << run.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace edgewise::test
