@@ -6,7 +6,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edgewise)
 foreach(part options analytic pipeline)
   set_target_properties(edgewise_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
-install(TARGETS edgewise_options edgewise_analytic edgewise_pipeline EXPORT edgewise_targets)
+install(TARGETS edgewise_options edgewise_analytic edgewise_scenes edgewise_pipeline EXPORT edgewise_targets)
 install(TARGETS edgewise)
 install(EXPORT edgewise_targets NAMESPACE edgewise:: FILE edgewiseTargets.cmake DESTINATION ${package_folder})
 

@@ -44,9 +44,9 @@ TEST_P(VisibilityTruth, EveryScanlineHasTheRightOwners) {
         const RandomScene random = makeRandomScene(GetParam(), seed);
         const VisibleMap map = visibleMap(random.scene, around(random.centre, kReachPx + 1), options, &counts);
         const auto verdict = witness::compareMap(random.scene, map, glm::dvec2(random.centre) + 0.5, kReachPx, seed, 20);
-        if (!foldsOverSharedSides(GetParam()))
-            EXPECT_TRUE(verdict.good()) << "seed " << seed << ": " << verdict.broken << " broken, "
-                                        << verdict.disagreements << " wrong; first: " << verdict.first;
+        EXPECT_TRUE(verdict.good() || foldsOverSharedSides(GetParam()))
+            << "seed " << seed << ": " << verdict.broken << " broken, " << verdict.disagreements
+            << " wrong; first: " << verdict.first;
         EXPECT_LE(verdict.wrong_px2, kWrongArea) << "seed " << seed << ", first: " << verdict.first;
         all.add(verdict);
     }
