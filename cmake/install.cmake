@@ -3,10 +3,10 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edgewise)
 
-foreach(part options analytic pipeline)
+foreach(part options analytic scenes pipeline)
   set_target_properties(edgewise_${part} PROPERTIES EXPORT_NAME ${part})
+  install(TARGETS edgewise_${part} EXPORT edgewise_targets)
 endforeach()
-install(TARGETS edgewise_options edgewise_analytic edgewise_scenes edgewise_pipeline EXPORT edgewise_targets)
 install(TARGETS edgewise)
 install(EXPORT edgewise_targets NAMESPACE edgewise:: FILE edgewiseTargets.cmake DESTINATION ${package_folder})
 
@@ -14,6 +14,8 @@ foreach(room analytic pipeline shaders)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgewise
     FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN cli EXCLUDE)
 endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION ${CMAKE_INSTALL_DATADIR}/edgewise
+  PATTERN generate EXCLUDE)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/edgewiseConfig.cmake.in
   ${PROJECT_BINARY_DIR}/edgewiseConfig.cmake INSTALL_DESTINATION ${package_folder})

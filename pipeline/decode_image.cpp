@@ -2,12 +2,13 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "pipeline/error.h"
+#include "pipeline/png_chunks.h"
 
 namespace edgewise {
 namespace {
@@ -32,9 +33,11 @@ struct Samples {
 
 void needSize(const OIIO::ImageSpec& spec, const std::string& what) {
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw InputError(what, "has no pixels");
-    const std::uint64_t texels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    const std::uint64_t texels =
+        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
     if (texels > kMaxImageTexels)
-        throw FailureError(what, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxImageTexels));
+        throw FailureError(
+            what, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxImageTexels));
 }
 
 template <class T>
@@ -46,21 +49,25 @@ bool readAs(OIIO::ImageInput& input, int channels, Samples& samples) {
     return true;
 }
 
-std::unique_ptr<OIIO::ImageInput> openInput(std::span<const std::uint8_t> bytes,
-                                            OIIO::Filesystem::IOMemReader& memory, const std::string& what) {
-    const char* const name = readerName(bytes, what);
+std::string decoderMessage(OIIO::ImageInput& input) {
+    const std::string message = input.geterror();
+    return message.empty() ? "cannot be decoded" : message;
+}
+
+std::unique_ptr<OIIO::ImageInput> openInput(const char* name, OIIO::Filesystem::IOMemReader& memory,
+                                            const std::string& what) {
     auto input = OIIO::ImageInput::create(name);
     if (!input) throw FailureError(what, fmt::format("this OpenImageIO has no reader for {}", name));
     OIIO::ImageSpec straight_alpha, spec;
     straight_alpha.attribute("oiio:UnassociatedAlpha", 1);
     if (!input->set_ioproxy(&memory) || !input->open(what, spec, straight_alpha))
-        throw InputError(what, input->geterror());
+        throw InputError(what, decoderMessage(*input));
     return input;
 }
 
-Samples readSamples(std::span<const std::uint8_t> bytes, const std::string& what) {
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    const auto input = openInput(bytes, memory, what);
+Samples readSamples(const char* name, std::vector<std::uint8_t> bytes, const std::string& what) {
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto input = openInput(name, memory, what);
     const OIIO::ImageSpec& spec = input->spec();
     needSize(spec, what);
     Samples samples;
@@ -72,7 +79,7 @@ Samples readSamples(std::span<const std::uint8_t> bytes, const std::string& what
     const bool is_8_bit = spec.format == OIIO::TypeDesc::UINT8;
     const bool done = is_8_bit ? readAs<std::uint8_t>(*input, samples.channels, samples)
                                : readAs<std::uint16_t>(*input, samples.channels, samples);
-    if (!done) throw InputError(what, input->geterror());
+    if (!done) throw InputError(what, decoderMessage(*input));
     return samples;
 }
 
@@ -90,7 +97,10 @@ double linearFromSrgb(double encoded) {
 }
 
 Image decodeSrgbImage(std::span<const std::uint8_t> bytes, const std::string& what) {
-    const Samples samples = readSamples(bytes, what);
+    const std::string name = readerName(bytes, what);
+    const Samples samples =
+        readSamples(name.c_str(),
+                    name == "png" ? pixelChunks(bytes, what) : std::vector(bytes.begin(), bytes.end()), what);
     const std::vector<float> linear = linearTable(samples.largest);
     const auto channels = static_cast<std::size_t>(samples.channels);
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;

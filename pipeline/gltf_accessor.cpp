@@ -1,11 +1,11 @@
 #include "pipeline/gltf_accessor.h"
 
+#include <fmt/format.h>
+#include <tiny_gltf.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
 #include <limits>
-#include <tiny_gltf.h>
 
 #include "pipeline/error.h"
 
@@ -23,12 +23,18 @@ double load(const unsigned char* bytes) {
 template <class Use>
 void withComponent(int component_type, const Use& use) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return use(std::int8_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return use(std::uint8_t{});
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return use(std::int16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return use(std::uint16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return use(std::uint32_t{});
-        default: return use(float{});
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return use(std::int8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return use(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return use(std::int16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return use(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return use(std::uint32_t{});
+        default:
+            return use(float{});
     }
 }
 
@@ -55,12 +61,14 @@ std::vector<double> readPacked(const Source& source, int component_type, std::si
 }
 
 std::size_t elementBytes(int component_type, int components) {
-    return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)) *
-                                    components);
+    return static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)) * components);
 }
 
-std::vector<double> readDense(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int components) {
-    if (accessor.bufferView < 0) return std::vector<double>(accessor.count * static_cast<std::size_t>(components));
+std::vector<double> readDense(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                              int components) {
+    if (accessor.bufferView < 0)
+        return std::vector<double>(accessor.count * static_cast<std::size_t>(components));
     const std::size_t stride = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
     const Source source{bytesOf(model, accessor.bufferView, accessor.byteOffset),
                         stride ? stride : elementBytes(accessor.componentType, components)};
@@ -69,8 +77,9 @@ std::vector<double> readDense(const tinygltf::Model& model, const tinygltf::Acce
 
 std::vector<double> readSparsePart(const tinygltf::Model& model, int view, int offset, int component_type,
                                    std::size_t count, int components) {
-    return readPacked({bytesOf(model, view, static_cast<std::size_t>(offset)), elementBytes(component_type, components)},
-                      component_type, count, components);
+    return readPacked(
+        {bytesOf(model, view, static_cast<std::size_t>(offset)), elementBytes(component_type, components)},
+        component_type, count, components);
 }
 
 void replaceSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& where,
@@ -85,8 +94,9 @@ void replaceSparse(const tinygltf::Model& model, const tinygltf::Accessor& acces
     const auto width = static_cast<std::size_t>(numbers.components);
     for (std::size_t i = 0; i < count; previous = indices[i++]) {
         if (indices[i] >= static_cast<double>(numbers.count))
-            throw InputError(where + ".sparse", fmt::format("index {} is out of range: the accessor has {} elements",
-                                                            indices[i], numbers.count));
+            throw InputError(where + ".sparse",
+                             fmt::format("index {} is out of range: the accessor has {} elements", indices[i],
+                                         numbers.count));
         if (indices[i] <= previous)
             throw InputError(where + ".sparse", fmt::format("index {} follows {}", indices[i], previous));
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
@@ -102,7 +112,8 @@ void normalize(int component_type, AccessorNumbers& numbers) {
 }
 
 void needFinite(const AccessorNumbers& numbers, const std::string& where) {
-    const auto bad = std::find_if(numbers.stored.begin(), numbers.stored.end(), [](double x) { return !std::isfinite(x); });
+    const auto bad = std::find_if(numbers.stored.begin(), numbers.stored.end(),
+                                  [](double x) { return !std::isfinite(x); });
     if (bad == numbers.stored.end()) return;
     throw InputError(where, fmt::format("element {} is {}, not finite",
                                         (bad - numbers.stored.begin()) / numbers.components, *bad));

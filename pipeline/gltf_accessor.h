@@ -21,7 +21,8 @@ struct AccessorNumbers {
     std::vector<double> stored;
 
     double value(std::size_t element, int component) const {
-        return stored[element * static_cast<std::size_t>(components) + static_cast<std::size_t>(component)] / divisor;
+        return stored[element * static_cast<std::size_t>(components) + static_cast<std::size_t>(component)] /
+               divisor;
     }
 };
 

@@ -31,7 +31,8 @@ Version parseVersion(const GltfElement& element) {
 void checkAsset(const GltfElement& root) {
     const GltfElement asset = root.need("asset").object();
     const GltfElement version = asset.need("version");
-    if (parseVersion(version).major != 2) version.fail(fmt::format("{} is not supported, only 2.x", version.string()));
+    if (parseVersion(version).major != 2)
+        version.fail(fmt::format("{} is not supported, only 2.x", version.string()));
     const auto least = asset.find("minVersion");
     if (!least) return;
     const Version needed = parseVersion(*least);

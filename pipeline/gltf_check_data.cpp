@@ -47,7 +47,8 @@ View checkView(const GltfElement& view, const GltfElement& root, const GltfCount
     }
     const std::uint64_t available = root.need("buffers").at(buffer).need("byteLength").integer();
     if (result.offset + result.length > available)
-        view.fail(fmt::format("ends at byte {}, buffers[{}] has {}", result.offset + result.length, buffer, available));
+        view.fail(fmt::format("ends at byte {}, buffers[{}] has {}", result.offset + result.length, buffer,
+                              available));
     return result;
 }
 
@@ -101,22 +102,24 @@ class AccessorChecker {
         if (!view) return checkUnbacked();
         const std::uint64_t stride = views_[*view].stride == 0 ? bytes : views_[*view].stride;
         if (stride < bytes)
-            accessor_.fail(fmt::format("has elements of {} bytes, bufferViews[{}] a byteStride of {}", bytes, *view,
-                                       stride));
+            accessor_.fail(fmt::format("has elements of {} bytes, bufferViews[{}] a byteStride of {}", bytes,
+                                       *view, stride));
         checkRange(accessor_, views_[*view], offset, stride, count_, bytes, componentBytes(component_));
     }
 
     void checkUnbacked() const {
         if (count_ > kMaxUnbackedElements)
-            throw FailureError(accessor_.where(), fmt::format("{} elements without a buffer view, the limit is {}",
-                                                              count_, kMaxUnbackedElements));
+            throw FailureError(accessor_.where(),
+                               fmt::format("{} elements without a buffer view, the limit is {}", count_,
+                                           kMaxUnbackedElements));
     }
 
     void checkSparse(const GltfElement& sparse) const {
         const std::uint64_t count = sparse.need("count").integer(1);
         if (count > count_) sparse.fail(fmt::format("replaces {} of {} elements", count, count_));
         const GltfElement indices = sparse.need("indices").object();
-        const std::uint64_t bytes = componentBytes(indices.need("componentType").integerOf({5121, 5123, 5125}));
+        const std::uint64_t bytes =
+            componentBytes(indices.need("componentType").integerOf({5121, 5123, 5125}));
         checkSparsePart(indices, count, bytes, bytes);
         checkSparsePart(sparse.need("values").object(), count, elementBytes(type_, component_),
                         componentBytes(component_));
@@ -148,7 +151,8 @@ void checkData(const GltfElement& root, const GltfCounts& counts, const GltfDocu
         is_first = false;
     });
     std::vector<View> views;
-    root.each("bufferViews", [&](const GltfElement& view) { views.push_back(checkView(view, root, counts)); });
+    root.each("bufferViews",
+              [&](const GltfElement& view) { views.push_back(checkView(view, root, counts)); });
     root.each("accessors", [&](const GltfElement& accessor) { AccessorChecker(accessor, views).check(); });
 }
 

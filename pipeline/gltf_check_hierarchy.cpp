@@ -57,7 +57,8 @@ void checkCycles(const GltfElement& root, const std::vector<std::size_t>& parent
     for (std::size_t start = 0; start < parent.size(); ++start) {
         std::size_t node = start;
         for (; node != kNoParent && climb_of[node] == kNoParent; node = parent[node]) climb_of[node] = start;
-        if (node != kNoParent && climb_of[node] == start) root.need("nodes").at(node).fail("is its own ancestor");
+        if (node != kNoParent && climb_of[node] == start)
+            root.need("nodes").at(node).fail("is its own ancestor");
     }
 }
 

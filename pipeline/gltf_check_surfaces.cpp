@@ -15,13 +15,16 @@ void checkImage(const GltfElement& image, const GltfCounts& counts, const GltfDo
     if (const auto mime = image.find("mimeType")) mime->string();
     if (!uri) return;
     const std::string text = uri->string();
-    if (isDataUri(text)) base64Payload(text, uri->where());
-    else jailedPath(document.folder, text, uri->where());
+    if (isDataUri(text))
+        base64Payload(text, uri->where());
+    else
+        jailedPath(document.folder, text, uri->where());
 }
 
 void checkSampler(const GltfElement& sampler) {
     if (const auto filter = sampler.find("magFilter")) filter->integerOf({9728, 9729});
-    if (const auto filter = sampler.find("minFilter")) filter->integerOf({9728, 9729, 9984, 9985, 9986, 9987});
+    if (const auto filter = sampler.find("minFilter"))
+        filter->integerOf({9728, 9729, 9984, 9985, 9986, 9987});
     for (const char* wrap : {"wrapS", "wrapT"})
         if (const auto mode = sampler.find(wrap)) mode->integerOf({33071, 33648, 10497});
 }

@@ -1,9 +1,9 @@
 #include "pipeline/gltf_document.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fmt/format.h>
 #include <fstream>
 
 #include "pipeline/error.h"
@@ -76,7 +76,8 @@ std::string parserMessage(const nlohmann::json::exception& error) {
 
 nlohmann::json parseJson(const std::string& source, std::string_view text) {
     if (text.size() > kMaxJsonBytes)
-        throw FailureError(source + ": JSON", fmt::format("{} bytes, the limit is {}", text.size(), kMaxJsonBytes));
+        throw FailureError(source + ": JSON",
+                           fmt::format("{} bytes, the limit is {}", text.size(), kMaxJsonBytes));
     if (jsonDepth(text, kMaxJsonDepth) > kMaxJsonDepth)
         throw InputError(source + ": JSON", fmt::format("is nested deeper than {} levels", kMaxJsonDepth));
     try {
@@ -95,10 +96,14 @@ int jsonDepth(std::string_view text, int limit) {
     bool in_string = false;
     for (std::size_t i = 0; i < text.size() && deepest <= limit; ++i) {
         const char c = text[i];
-        if (in_string && c == '\\') ++i;
-        else if (c == '"') in_string = !in_string;
-        else if (!in_string && (c == '{' || c == '[')) deepest = std::max(deepest, ++depth);
-        else if (!in_string && (c == '}' || c == ']')) --depth;
+        if (in_string && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '{' || c == '['))
+            deepest = std::max(deepest, ++depth);
+        else if (!in_string && (c == '}' || c == ']'))
+            --depth;
     }
     return deepest;
 }

@@ -31,7 +31,8 @@ GltfDocument readGltfDocument(const std::filesystem::path& path);
 /// The deepest nesting of arrays and objects in JSON text, valid or not; stops counting above `limit`.
 int jsonDepth(std::string_view text, int limit);
 
-/// A regular file's bytes. Throws InputError naming `what`; FailureError when it is larger than kMaxFileBytes.
+/// A regular file's bytes. Throws InputError naming `what`; FailureError when it is larger than
+/// kMaxFileBytes.
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace edgewise

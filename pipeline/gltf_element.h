@@ -1,8 +1,8 @@
 // One element of a glTF file's JSON together with its name in the file, for checks whose errors say where.
 #pragma once
 
-#include <cstdint>
 #include <fmt/format.h>
+#include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>

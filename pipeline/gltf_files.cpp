@@ -1,9 +1,9 @@
 #include "pipeline/gltf_files.h"
 
-#include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 #include <tiny_gltf.h>
+#include <algorithm>
+#include <cstring>
 
 #include "pipeline/error.h"
 #include "pipeline/gltf_document.h"
@@ -58,7 +58,9 @@ bool readFile(std::vector<unsigned char>* bytes, std::string* error, const std::
     return true;
 }
 
-std::string sameName(const std::string& path, void*) { return path; }
+std::string sameName(const std::string& path, void*) {
+    return path;
+}
 
 bool writeNothing(std::string* error, const std::string&, const std::vector<unsigned char>&, void*) {
     *error = "edgewise writes no glTF";
@@ -70,6 +72,18 @@ bool keepImageBytes(tinygltf::Image* image, const int, std::string*, std::string
     image->image.assign(bytes, bytes + size);
     image->as_is = true;
     return true;
+}
+
+/// tinygltf refuses an indices accessor without a buffer view, which is legal when it is sparse.
+void lendViews(nlohmann::json& root) {
+    if (!root.contains("accessors") || !root.contains("bufferViews")) return;
+    for (auto& accessor : root["accessors"])
+        if (accessor.contains("sparse")) accessor.emplace("bufferView", 0);
+}
+
+void takeViewsBack(const nlohmann::json& root, tinygltf::Model& model) {
+    for (std::size_t i = 0; i < model.accessors.size(); ++i)
+        if (!root["accessors"][i].contains("bufferView")) model.accessors[i].bufferView = -1;
 }
 
 /// tinygltf knows few media types and wants byteLength to be the file's size; the specification does not.
@@ -87,10 +101,12 @@ nlohmann::json forTinygltf(const GltfDocument& document) {
                 element["byteLength"] = data.decoded_bytes;
                 element["uri"] = fmt::format("data:application/octet-stream;base64,{}", data.payload);
             } else if (std::strcmp(section, "buffers") == 0) {
-                element["byteLength"] = std::filesystem::file_size(jailedPath(document.folder, uri, document.source));
+                element["byteLength"] =
+                    std::filesystem::file_size(jailedPath(document.folder, uri, document.source));
             }
         }
     }
+    lendViews(root);
     return root;
 }
 
@@ -140,8 +156,8 @@ bool runTinygltf(tinygltf::Model& model, std::string& error, GltfDocument& docum
                                           static_cast<unsigned>(json_text.size()), document.folder.string());
     const std::vector<unsigned char> glb = packGlb(json_text, document.binary_chunk);
     document.binary_chunk = {};
-    return parser.LoadBinaryFromMemory(&model, &error, &warnings, glb.data(), static_cast<unsigned>(glb.size()),
-                                       document.folder.string());
+    return parser.LoadBinaryFromMemory(&model, &error, &warnings, glb.data(),
+                                       static_cast<unsigned>(glb.size()), document.folder.string());
 }
 
 }  // namespace
@@ -186,7 +202,10 @@ tinygltf::Model readModel(GltfDocument& document) {
     tinygltf::Model model;
     std::string error;
     try {
-        if (runTinygltf(model, error, document)) return model;
+        if (runTinygltf(model, error, document)) {
+            takeViewsBack(document.root, model);
+            return model;
+        }
     } catch (const std::out_of_range&) {
         error = "an empty image or buffer";
     }

@@ -15,7 +15,9 @@ namespace edgewise {
 
 struct GltfDocument;
 
-inline bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
+inline bool isDataUri(std::string_view uri) {
+    return uri.starts_with("data:");
+}
 
 struct Base64Data {
     std::string_view payload;

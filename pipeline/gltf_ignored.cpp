@@ -12,9 +12,12 @@ using Json = nlohmann::json;
 
 void add(std::vector<Ignored>& list, std::string_view what, std::size_t count) {
     if (count == 0) return;
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Ignored& entry) { return entry.what == what; });
-    if (found == list.end()) list.push_back({std::string(what), count});
-    else found->count += count;
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const Ignored& entry) { return entry.what == what; });
+    if (found == list.end())
+        list.push_back({std::string(what), count});
+    else
+        found->count += count;
 }
 
 const Json& section(const Json& root, const char* key) {
@@ -39,7 +42,9 @@ void addMaterials(const Json& root, std::vector<Ignored>& list) {
     const auto alpha = [](const char* mode) {
         return [mode](const Json& material) { return material.value("alphaMode", "OPAQUE") == mode; };
     };
-    const auto has = [](const char* key) { return [key](const Json& material) { return material.contains(key); }; };
+    const auto has = [](const char* key) {
+        return [key](const Json& material) { return material.contains(key); };
+    };
     add(list, "alpha mode MASK", countIf(materials, alpha("MASK")));
     add(list, "alpha mode BLEND", countIf(materials, alpha("BLEND")));
     add(list, "emissive materials", countIf(materials, emits));
@@ -55,8 +60,10 @@ void addPrimitives(const Json& root, std::vector<Ignored>& list) {
     for (const Json& mesh : section(root, "meshes"))
         for (const Json& primitive : section(mesh, "primitives")) {
             const std::size_t mode = primitive.value("mode", std::size_t{4});
-            if (mode < kinds.size()) add(list, kinds[mode], 1);
-            else if (!primitive["attributes"].contains("POSITION")) add(list, "primitives without positions", 1);
+            if (mode < kinds.size())
+                add(list, kinds[mode], 1);
+            else if (!primitive["attributes"].contains("POSITION"))
+                add(list, "primitives without positions", 1);
             if (!section(primitive, "targets").empty()) add(list, "primitives with morph targets", 1);
             if (primitive["attributes"].contains("COLOR_1")) add(list, "primitives with a second colour", 1);
         }
@@ -77,7 +84,8 @@ std::vector<Ignored> listIgnored(const Json& root) {
     std::vector<Ignored> list;
     addMaterials(root, list);
     addPrimitives(root, list);
-    add(list, "skinned nodes", countIf(section(root, "nodes"), [](const Json& node) { return node.contains("skin"); }));
+    add(list, "skinned nodes",
+        countIf(section(root, "nodes"), [](const Json& node) { return node.contains("skin"); }));
     add(list, "animations", section(root, "animations").size());
     std::map<std::string, std::size_t> uses;
     countExtensions(root, uses);
@@ -86,6 +94,8 @@ std::vector<Ignored> listIgnored(const Json& root) {
     return list;
 }
 
-void countIgnored(Scene& scene, std::string_view what, std::size_t count) { add(scene.ignored, what, count); }
+void countIgnored(Scene& scene, std::string_view what, std::size_t count) {
+    add(scene.ignored, what, count);
+}
 
 }  // namespace edgewise

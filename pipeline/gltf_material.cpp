@@ -1,8 +1,8 @@
 #include "pipeline/gltf_material.h"
 
 #include <fmt/format.h>
-#include <map>
 #include <tiny_gltf.h>
+#include <map>
 
 #include "pipeline/decode_image.h"
 #include "pipeline/gltf_ignored.h"
@@ -21,15 +21,25 @@ void readSampler(const tinygltf::Sampler& sampler, Texture& texture) {
     texture.wrap_t = wrapOf(sampler.wrapT);
     if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) texture.mag = TexelFilter::kNearest;
     switch (sampler.minFilter) {
-        case TINYGLTF_TEXTURE_FILTER_NEAREST: texture.min = TexelFilter::kNearest; texture.mip.reset(); break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR: texture.mip.reset(); break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+            texture.min = TexelFilter::kNearest;
+            texture.mip.reset();
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            texture.mip.reset();
+            break;
         case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
             texture.min = TexelFilter::kNearest;
             texture.mip = TexelFilter::kNearest;
             break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST: texture.mip = TexelFilter::kNearest; break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR: texture.min = TexelFilter::kNearest; break;
-        default: break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            texture.mip = TexelFilter::kNearest;
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            texture.min = TexelFilter::kNearest;
+            break;
+        default:
+            break;
     }
 }
 
@@ -52,14 +62,16 @@ class MaterialReader {
   private:
     void readTexture(const tinygltf::TextureInfo& info, Material& material) {
         const tinygltf::Texture& from = model_.textures[static_cast<std::size_t>(info.index)];
-        if (info.texCoord > 1) return countIgnored(scene_, "textures with texture coordinates beyond TEXCOORD_1");
+        if (info.texCoord > 1)
+            return countIgnored(scene_, "textures with texture coordinates beyond TEXCOORD_1");
         if (from.source < 0) return countIgnored(scene_, "textures without an image of a known format");
         material.base_color_uv = info.texCoord;
         material.base_color_texture = texture(info.index, from);
     }
 
     std::uint32_t texture(int index, const tinygltf::Texture& from) {
-        const auto [known, is_new] = texture_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.textures.size()));
+        const auto [known, is_new] =
+            texture_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.textures.size()));
         if (is_new) {
             Texture made;
             made.image = image(from.source);
@@ -70,11 +82,13 @@ class MaterialReader {
     }
 
     std::uint32_t image(int index) {
-        const auto [known, is_new] = image_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.images.size()));
+        const auto [known, is_new] =
+            image_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.images.size()));
         if (is_new) {
             const tinygltf::Image& from = model_.images[static_cast<std::size_t>(index)];
             const std::string name = from.uri.empty() ? from.name : from.uri;
-            const std::string where = fmt::format("{}: images[{}]{}", source_, index, name.empty() ? "" : " " + name);
+            const std::string where =
+                fmt::format("{}: images[{}]{}", source_, index, name.empty() ? "" : " " + name);
             scene_.images.push_back(decodeSrgbImage(from.image, where));
             scene_.images.back().name = name;
         }

@@ -1,8 +1,8 @@
 #include "pipeline/gltf_primitive.h"
 
 #include <fmt/format.h>
-#include <initializer_list>
 #include <tiny_gltf.h>
+#include <initializer_list>
 
 #include "pipeline/error.h"
 #include "pipeline/gltf_accessor.h"
@@ -15,11 +15,15 @@ struct Formats {
     unsigned plain, normalized, quantized_plain, quantized_normalized;
 };
 
-constexpr unsigned bit(int component_type) { return 1u << (component_type - TINYGLTF_COMPONENT_TYPE_BYTE); }
-constexpr unsigned kByte = bit(TINYGLTF_COMPONENT_TYPE_BYTE), kUbyte = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE),
-                   kShort = bit(TINYGLTF_COMPONENT_TYPE_SHORT), kUshort = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT),
-                   kUint = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT), kFloat = bit(TINYGLTF_COMPONENT_TYPE_FLOAT),
-                   kSmall = kByte | kUbyte | kShort | kUshort;
+constexpr unsigned bit(int component_type) {
+    return 1u << (component_type - TINYGLTF_COMPONENT_TYPE_BYTE);
+}
+constexpr unsigned kByte = bit(TINYGLTF_COMPONENT_TYPE_BYTE),
+                   kUbyte = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE),
+                   kShort = bit(TINYGLTF_COMPONENT_TYPE_SHORT),
+                   kUshort = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT),
+                   kUint = bit(TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT),
+                   kFloat = bit(TINYGLTF_COMPONENT_TYPE_FLOAT), kSmall = kByte | kUbyte | kShort | kUshort;
 constexpr Formats kPosition{kFloat, 0, kSmall, kSmall};
 constexpr Formats kNormal{kFloat, 0, 0, kByte | kShort};
 constexpr Formats kUv{kFloat, kUbyte | kUshort, kSmall, kByte | kShort};
@@ -50,7 +54,8 @@ class PrimitiveReader {
           context_(context),
           primitive_(model_.meshes[static_cast<std::size_t>(context.mesh)]
                          .primitives[static_cast<std::size_t>(context.primitive)]),
-          where_(fmt::format("{}: meshes[{}].primitives[{}]", context.source, context.mesh, context.primitive)) {}
+          where_(fmt::format("{}: meshes[{}].primitives[{}]", context.source, context.mesh,
+                             context.primitive)) {}
 
     Geometry read() {
         Geometry geometry;
@@ -77,8 +82,8 @@ class PrimitiveReader {
         throw InputError(fmt::format("{}.{}", where_, part), why);
     }
 
-    void checkFormat(const std::string& name, const tinygltf::Accessor& accessor, std::initializer_list<int> types,
-                     const Formats& formats) const {
+    void checkFormat(const std::string& name, const tinygltf::Accessor& accessor,
+                     std::initializer_list<int> types, const Formats& formats) const {
         const unsigned core = accessor.normalized ? formats.normalized : formats.plain;
         const unsigned more = accessor.normalized ? formats.quantized_normalized : formats.quantized_plain;
         const unsigned found = bit(accessor.componentType);
@@ -114,7 +119,8 @@ class PrimitiveReader {
         geometry.position_file.resize(positions.count);
         for (std::size_t i = 0; i < positions.count; ++i)
             for (int c = 0; c < 3; ++c)
-                geometry.position_file[i][c] = static_cast<float>(positions.stored[3 * i + static_cast<std::size_t>(c)]);
+                geometry.position_file[i][c] =
+                    static_cast<float>(positions.stored[3 * i + static_cast<std::size_t>(c)]);
     }
 
     std::vector<std::uint32_t> readIndices(std::size_t vertices) const {
@@ -124,7 +130,8 @@ class PrimitiveReader {
         std::vector<std::uint32_t> indices(numbers.count);
         for (std::size_t i = 0; i < numbers.count; ++i) {
             if (numbers.stored[i] >= static_cast<double>(vertices))
-                fail("indices", fmt::format("index {} is {}, but there are {} vertices", i, numbers.stored[i], vertices));
+                fail("indices", fmt::format("index {} is {}, but there are {} vertices", i, numbers.stored[i],
+                                            vertices));
             indices[i] = static_cast<std::uint32_t>(numbers.stored[i]);
         }
         return indices;
@@ -162,12 +169,16 @@ PrimitiveSize primitiveSize(const tinygltf::Model& model, const tinygltf::Primit
     const std::size_t count = primitive.indices < 0
                                   ? size.vertices
                                   : model.accessors[static_cast<std::size_t>(primitive.indices)].count;
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES) size.triangles = count < 3 ? 0 : count - 2;
-    else size.triangles = count / 3;
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES)
+        size.triangles = count < 3 ? 0 : count - 2;
+    else
+        size.triangles = count / 3;
     size.left_over = primitive.mode == TINYGLTF_MODE_TRIANGLES ? count % 3 : (count < 3 ? count : 0);
     return size;
 }
 
-Geometry readPrimitive(const PrimitiveContext& context) { return PrimitiveReader(context).read(); }
+Geometry readPrimitive(const PrimitiveContext& context) {
+    return PrimitiveReader(context).read();
+}
 
 }  // namespace edgewise

@@ -1,14 +1,16 @@
 #include "pipeline/gltf_transform.h"
 
+#include <tiny_gltf.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <tiny_gltf.h>
 
 namespace edgewise {
 namespace {
 
-double largestOf(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+double largestOf(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 /// 2^-e with largest * 2^-e in [0.5, 1): scaling by it is exact.
 double powerOfTwoBelow(double largest) {
@@ -18,7 +20,9 @@ double powerOfTwoBelow(double largest) {
     return std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
 }
 
-glm::dvec3 scaledToOne(const glm::dvec3& v) { return v * powerOfTwoBelow(largestOf(v)); }
+glm::dvec3 scaledToOne(const glm::dvec3& v) {
+    return v * powerOfTwoBelow(largestOf(v));
+}
 
 glm::dquat rotationOf(const std::vector<double>& q) {
     // Divided by the largest part first: the squared length can neither overflow nor vanish.
@@ -56,7 +60,8 @@ bool flipsWinding(const glm::dmat4& m) {
 
 glm::dmat3 normalTransform(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
-    const double scale = powerOfTwoBelow(std::max({largestOf(linear[0]), largestOf(linear[1]), largestOf(linear[2])}));
+    const double scale =
+        powerOfTwoBelow(std::max({largestOf(linear[0]), largestOf(linear[1]), largestOf(linear[2])}));
     const glm::dmat3 a = linear * scale;
     const double sign = flipsWinding(m) ? -1.0 : 1.0;
     return glm::dmat3(glm::cross(a[1], a[2]), glm::cross(a[2], a[0]), glm::cross(a[0], a[1])) * sign;

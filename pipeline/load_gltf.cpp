@@ -1,11 +1,11 @@
 #include "pipeline/load_gltf.h"
 
+#include <fmt/format.h>
+#include <tiny_gltf.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
-#include <tiny_gltf.h>
 
 #include "pipeline/error.h"
 #include "pipeline/gltf_check.h"
@@ -37,8 +37,10 @@ std::size_t chosenScene(const tinygltf::Model& model, const std::string& wanted,
                                                       model.scenes.size()));
 }
 
-std::vector<int> rootNodes(const tinygltf::Model& model, const std::string& wanted, const std::string& source) {
-    if (!model.scenes.empty() || !wanted.empty()) return model.scenes[chosenScene(model, wanted, source)].nodes;
+std::vector<int> rootNodes(const tinygltf::Model& model, const std::string& wanted,
+                           const std::string& source) {
+    if (!model.scenes.empty() || !wanted.empty())
+        return model.scenes[chosenScene(model, wanted, source)].nodes;
     std::vector<bool> has_parent(model.nodes.size(), false);
     for (const tinygltf::Node& node : model.nodes)
         for (const int child : node.children) has_parent[static_cast<std::size_t>(child)] = true;
@@ -64,7 +66,8 @@ class SceneReader {
         scene_.bounds_min = glm::dvec3(std::numeric_limits<double>::infinity());
         scene_.bounds_max = -scene_.bounds_min;
         visitNodes();
-        if (!(scene_.bounds_min.x <= scene_.bounds_max.x)) scene_.bounds_min = scene_.bounds_max = glm::dvec3(0.0);
+        if (!(scene_.bounds_min.x <= scene_.bounds_max.x))
+            scene_.bounds_min = scene_.bounds_max = glm::dvec3(0.0);
         readMaterials(model_, used_materials_, scene_.source, scene_);
         fillMissingUv();
     }
@@ -80,7 +83,8 @@ class SceneReader {
     void visitNodes() {
         std::vector<Pending> pending;
         const std::vector<int> roots = rootNodes(model_, options_.scene, scene_.source);
-        for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, glm::dmat4(1.0)});
+        for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+            pending.push_back({*root, glm::dmat4(1.0)});
         for (std::size_t visited = 0; !pending.empty(); ++visited) {
             const Pending current = pending.back();
             pending.pop_back();
@@ -103,7 +107,8 @@ class SceneReader {
 
     void visitNode(int index, const glm::dmat4& world_from_node) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-        if (!isFinite(world_from_node)) throw InputError(nodeName(index), "its world transform is not finite");
+        if (!isFinite(world_from_node))
+            throw InputError(nodeName(index), "its world transform is not finite");
         if (node.camera >= 0) addCamera(index, world_from_node);
         if (node.mesh < 0) return;
         const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
@@ -117,7 +122,8 @@ class SceneReader {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
         const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
         const auto rigid = rigidTransform(world_from_node);
-        if (!rigid) throw InputError(nodeName(index), "its camera has no orientation: an axis of the node vanishes");
+        if (!rigid)
+            throw InputError(nodeName(index), "its camera has no orientation: an axis of the node vanishes");
         Camera camera;
         camera.name = from.name.empty() ? node.name : from.name;
         camera.node = static_cast<std::uint32_t>(index);
@@ -128,8 +134,10 @@ class SceneReader {
         camera.xmag = from.orthographic.xmag;
         camera.ymag = from.orthographic.ymag;
         camera.znear = camera.perspective ? lens.znear : from.orthographic.znear;
-        if (!camera.perspective) camera.zfar = from.orthographic.zfar;
-        else if (lens.zfar != 0.0) camera.zfar = lens.zfar;
+        if (!camera.perspective)
+            camera.zfar = from.orthographic.zfar;
+        else if (lens.zfar != 0.0)
+            camera.zfar = lens.zfar;
         if (camera.perspective && lens.aspectRatio != 0.0) camera.aspect = lens.aspectRatio;
         scene_.cameras.push_back(camera);
     }
@@ -143,8 +151,8 @@ class SceneReader {
         geometry.node = static_cast<std::uint32_t>(node);
         geometry.mesh = static_cast<std::uint32_t>(mesh);
         geometry.primitive = static_cast<std::uint32_t>(primitive);
-        geometry.material =
-            from.material < 0 ? static_cast<std::uint32_t>(model_.materials.size()) : static_cast<std::uint32_t>(from.material);
+        geometry.material = from.material < 0 ? static_cast<std::uint32_t>(model_.materials.size())
+                                              : static_cast<std::uint32_t>(from.material);
         if (from.material >= 0) used_materials_[geometry.material] = true;
         geometry.first_triangle = static_cast<std::uint32_t>(scene_.triangle_count);
         scene_.triangle_count += geometry.triangles.size();
@@ -155,8 +163,9 @@ class SceneReader {
     void countPrimitive(int node, const PrimitiveSize& size) {
         vertex_count_ += size.vertices;
         if (scene_.triangle_count + size.triangles > kMaxTriangles || vertex_count_ > kMaxVertices)
-            throw FailureError(nodeName(node), fmt::format("the scene has more than {} triangles or {} vertices",
-                                                           kMaxTriangles, kMaxVertices));
+            throw FailureError(nodeName(node),
+                               fmt::format("the scene has more than {} triangles or {} vertices",
+                                           kMaxTriangles, kMaxVertices));
         if (size.left_over != 0) countIgnored(scene_, "vertices of incomplete triangles", size.left_over);
     }
 
@@ -164,7 +173,8 @@ class SceneReader {
         for (glm::dvec3& position : geometry.position_world) {
             position = glm::dvec3(world_from_node * glm::dvec4(position, 1.0));
             if (!(std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z)))
-                throw InputError(nodeName(static_cast<int>(geometry.node)), "a vertex is not finite in world space");
+                throw InputError(nodeName(static_cast<int>(geometry.node)),
+                                 "a vertex is not finite in world space");
         }
         const glm::dmat3 normals = normalTransform(world_from_node);
         for (glm::dvec3& normal : geometry.normal_world) normal = normals * normal;

@@ -19,11 +19,11 @@ struct LoadOptions {
     std::function<void(double fraction)> progress;  ///< called with 0..1; may throw to stop
 };
 
-/// Reads a glTF 2.0 file. Every triangle counts, degenerate ones included, in depth-first order of nodes, then
-/// primitives, then triangles; a node's children follow it in the file's order. What the file uses and edgewise
-/// does not draw is listed in Scene::ignored. A material's texture whose coordinates a primitive lacks is read
-/// at (0, 0). Files outside the scene's folder are never opened.
-/// Throws InputError "FILE: ELEMENT: RULE" for anything malformed, FailureError past a stated limit.
+/// Reads a glTF 2.0 file. Every triangle counts, degenerate ones included, in depth-first order of nodes,
+/// then primitives, then triangles; a node's children follow it in the file's order. What the file uses and
+/// edgewise does not draw is listed in Scene::ignored. A material's texture whose coordinates a primitive
+/// lacks is read at (0, 0). Files outside the scene's folder are never opened. Throws InputError "FILE:
+/// ELEMENT: RULE" for anything malformed, FailureError past a stated limit.
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace edgewise

@@ -38,8 +38,8 @@ void ProgressBar::stage(std::string_view name, std::size_t total) {
     redraw();
 }
 
-void ProgressBar::advance(std::size_t steps) {
-    done_ += steps;
+void ProgressBar::advance(std::size_t done) {
+    done_ += done;
     if (!draw_) return;
     const std::unique_lock lock(drawing_, std::try_to_lock);
     if (lock) redraw();

@@ -22,7 +22,7 @@ class ProgressBar : public Progress {
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     void stage(std::string_view name, std::size_t total) override;
-    void advance(std::size_t steps) override;
+    void advance(std::size_t done) override;
     bool cancelled() override;
 
   private:

@@ -1,8 +1,8 @@
 #include "pipeline/resolve_camera.h"
 
+#include <fmt/format.h>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include "pipeline/error.h"
@@ -13,14 +13,22 @@ namespace {
 constexpr double kDefaultFovyDegrees = 45.0;
 constexpr double kFramingMargin = 1.05;
 
-double radians(double degrees) { return degrees * (glm::pi<double>() / 180.0); }
+double radians(double degrees) {
+    return degrees * (glm::pi<double>() / 180.0);
+}
 
-bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool isFinite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
-double length(const glm::dvec3& v) { return std::hypot(v.x, v.y, v.z); }
+double length(const glm::dvec3& v) {
+    return std::hypot(v.x, v.y, v.z);
+}
 
 /// Halves first: bounds near the largest double must not overflow.
-glm::dvec3 centreOf(const Scene& scene) { return 0.5 * scene.bounds_min + 0.5 * scene.bounds_max; }
+glm::dvec3 centreOf(const Scene& scene) {
+    return 0.5 * scene.bounds_min + 0.5 * scene.bounds_max;
+}
 
 struct Sphere {
     glm::dvec3 centre;
@@ -39,8 +47,8 @@ glm::dmat4 lookAlong(const glm::dvec3& eye, const glm::dvec3& toward_eye) {
     const bool along_y = std::abs(toward_eye.x) + std::abs(toward_eye.z) < 0x1p-26;
     const glm::dvec3 up = along_y ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 x = glm::normalize(glm::cross(up, toward_eye));
-    return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(toward_eye, x), 0.0), glm::dvec4(toward_eye, 0.0),
-                      glm::dvec4(eye, 1.0));
+    return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(toward_eye, x), 0.0),
+                      glm::dvec4(toward_eye, 0.0), glm::dvec4(eye, 1.0));
 }
 
 Camera cameraFromFlags(const Scene& scene, const CameraOptions& options) {
@@ -48,7 +56,8 @@ Camera cameraFromFlags(const Scene& scene, const CameraOptions& options) {
     if (!isFinite(eye)) throw InputError("--eye", "is not finite");
     if (!isFinite(target)) throw InputError("--target", "is not finite");
     const double distance = length(eye - target);
-    if (!(distance > 0.0) || !std::isfinite(distance)) throw InputError("--eye", "has no finite distance to the target");
+    if (!(distance > 0.0) || !std::isfinite(distance))
+        throw InputError("--eye", "has no finite distance to the target");
     Camera camera;
     camera.name = "command line";
     camera.world_from_camera = lookAlong(eye, glm::normalize((eye - target) / distance));
@@ -85,9 +94,10 @@ Camera cameraByName(const Scene& scene, const std::string& wanted) {
     std::size_t index = 0;
     const char* const end = wanted.data() + wanted.size();
     const auto parsed = std::from_chars(wanted.data(), end, index);
-    if (parsed.ec == std::errc() && parsed.ptr == end && index < scene.cameras.size()) return scene.cameras[index];
-    throw InputError("--camera " + wanted,
-                     fmt::format("the scene has {} cameras, none of that name or index", scene.cameras.size()));
+    if (parsed.ec == std::errc() && parsed.ptr == end && index < scene.cameras.size())
+        return scene.cameras[index];
+    throw InputError("--camera " + wanted, fmt::format("the scene has {} cameras, none of that name or index",
+                                                       scene.cameras.size()));
 }
 
 void checkFlags(const CameraOptions& options) {
@@ -95,19 +105,25 @@ void checkFlags(const CameraOptions& options) {
     if (options.target && !options.eye) throw InputError("--target", "needs --eye");
     if (!options.fovy_degrees) return;
     const double fovy = *options.fovy_degrees;
-    if (!(fovy > 0.0 && fovy < 180.0)) throw InputError("--fovy", fmt::format("{} is not between 0 and 180", fovy));
+    if (!(fovy > 0.0 && fovy < 180.0))
+        throw InputError("--fovy", fmt::format("{} is not between 0 and 180", fovy));
 }
 
 void checkLens(const Camera& camera, const std::string& what) {
     const auto need = [&](bool holds, const char* name, double value, const char* rule) {
         if (!holds) throw InputError(what, fmt::format("{} is {}, {}", name, value, rule));
     };
-    if (camera.perspective) need(camera.yfov > 0.0 && camera.yfov < glm::pi<double>(), "yfov", camera.yfov, "not in (0, pi)");
-    if (!camera.perspective) need(camera.ymag > 0.0 && std::isfinite(camera.ymag), "ymag", camera.ymag, "not above 0");
-    if (!camera.perspective) need(camera.znear >= 0.0 && std::isfinite(camera.znear), "znear", camera.znear, "negative");
-    if (camera.perspective) need(camera.znear > 0.0 && std::isfinite(camera.znear), "znear", camera.znear, "not above 0");
+    if (camera.perspective)
+        need(camera.yfov > 0.0 && camera.yfov < glm::pi<double>(), "yfov", camera.yfov, "not in (0, pi)");
+    if (!camera.perspective)
+        need(camera.ymag > 0.0 && std::isfinite(camera.ymag), "ymag", camera.ymag, "not above 0");
+    if (!camera.perspective)
+        need(camera.znear >= 0.0 && std::isfinite(camera.znear), "znear", camera.znear, "negative");
+    if (camera.perspective)
+        need(camera.znear > 0.0 && std::isfinite(camera.znear), "znear", camera.znear, "not above 0");
     if (camera.zfar) need(*camera.zfar > camera.znear, "zfar", *camera.zfar, "not beyond znear");
-    if (camera.aspect) need(*camera.aspect > 0.0 && std::isfinite(*camera.aspect), "aspect", *camera.aspect, "not above 0");
+    if (camera.aspect)
+        need(*camera.aspect > 0.0 && std::isfinite(*camera.aspect), "aspect", *camera.aspect, "not above 0");
 }
 
 std::optional<double> ownAspect(const Camera& camera) {
@@ -116,14 +132,17 @@ std::optional<double> ownAspect(const Camera& camera) {
 }
 
 /// `what` is blamed for an aspect ratio that makes no film.
-void sizeFilm(const CameraOptions& options, std::optional<double> aspect, const std::string& what, Film& film) {
+void sizeFilm(const CameraOptions& options, std::optional<double> aspect, const std::string& what,
+              Film& film) {
     const double height = std::max(1.0, std::round(kDefaultFilmWidth / aspect.value_or(1.0)));
     if (!options.size && !(height <= kMaxFilmSide))
-        throw InputError(what, fmt::format("its aspect ratio {} makes a film {} pixels high, the limit is {}", *aspect,
-                                           height, kMaxFilmSide));
-    const glm::ivec2 size = options.size.value_or(glm::ivec2(kDefaultFilmWidth, static_cast<int>(std::min(height, 0x1p20))));
+        throw InputError(what, fmt::format("its aspect ratio {} makes a film {} pixels high, the limit is {}",
+                                           *aspect, height, kMaxFilmSide));
+    const glm::ivec2 size =
+        options.size.value_or(glm::ivec2(kDefaultFilmWidth, static_cast<int>(std::min(height, 0x1p20))));
     if (size.x < 1 || size.y < 1 || size.x > kMaxFilmSide || size.y > kMaxFilmSide)
-        throw InputError("--size", fmt::format("{}x{} is not between 1x1 and {}x{}", size.x, size.y, kMaxFilmSide, kMaxFilmSide));
+        throw InputError("--size", fmt::format("{}x{} is not between 1x1 and {}x{}", size.x, size.y,
+                                               kMaxFilmSide, kMaxFilmSide));
     film.width = size.x;
     film.height = size.y;
     film.crop = {0, 0, size.x, size.y};
@@ -151,7 +170,8 @@ ResolvedCamera resolveOwn(const Scene& scene, const CameraOptions& options, Film
 
 ResolvedCamera resolveFraming(const Scene& scene, const CameraOptions& options, Film& film) {
     sizeFilm(options, std::nullopt, "--size", film);
-    return withFilm(framingCamera(scene, options, static_cast<double>(film.width) / film.height), film, "framing");
+    return withFilm(framingCamera(scene, options, static_cast<double>(film.width) / film.height), film,
+                    "framing");
 }
 
 ResolvedCamera resolveFromFile(const Scene& scene, const CameraOptions& options, Film& film) {

@@ -1,1 +1,42 @@
-int main(){return 0;}
+#include <fmt/format.h>
+
+
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/report.h"
+#include "pipeline/version.h"
+
+namespace edgewise::cli {
+namespace {
+
+constexpr const char* kFooter = R"(
+SCENE is a .gltf or .glb file, or the name of a scene: `edgewise scenes` lists them.
+An option that takes several values is repeated: --no-skip interior --no-skip empty.
+
+Exit status: 0 done; 1 it failed (device, memory, a stated limit met); 2 the command line or the input is wrong;
+130 interrupted. Errors are single lines on standard error: `edgewise: error: WHAT: WHY`.)";
+
+void parseAndRun(int argc, char** argv) {
+    CLI::App program("Exact analytic antialiasing: closed-form prefilter weights over exact visibility.", "edgewise");
+    program.set_version_flag("--version", fmt::format("edgewise {}", version()), "print the version and exit");
+    program.set_help_flag("-h,--help", "print this help and exit");
+    program.require_subcommand(1);
+    program.footer(kFooter);
+    addInfo(program);
+    addScenes(program);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+        program.exit(help_or_version);
+    }
+}
+
+}  // namespace
+}  // namespace edgewise::cli
+
+int main(int argc, char** argv) {
+    using namespace edgewise::cli;
+    logToStandardError();
+    catchInterrupts();
+    return runAndReport([&] { parseAndRun(argc, argv); });
+}

@@ -5,10 +5,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "pipeline/error.h"
+#include "pipeline/resolve_camera.h"
 
 namespace edgewise::cli {
 namespace {
@@ -75,7 +75,7 @@ glm::dvec3 parseTriple(const std::string& option, const std::string& text) {
 glm::ivec2 parseSize(const std::string& option, const std::string& text) {
     const std::vector<std::string> parts = split(text, 'x');
     if (parts.size() != 2) throw InputError(option, fmt::format("'{}' is not of the form WxH", text));
-    return {parseInteger(option, parts[0], 1, kMaxSidePx), parseInteger(option, parts[1], 1, kMaxSidePx)};
+    return {parseInteger(option, parts[0], 1, kMaxFilmSide), parseInteger(option, parts[1], 1, kMaxFilmSide)};
 }
 
 PixelBox parseCrop(const std::string& option, const std::string& text) {
@@ -83,7 +83,7 @@ PixelBox parseCrop(const std::string& option, const std::string& text) {
     if (parts.size() != 4) throw InputError(option, fmt::format("'{}' is not of the form X0,Y0,X1,Y1", text));
     std::array<int, 4> v;
     for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] = static_cast<int>(parseInteger(option, parts[i], 0, kMaxSidePx));
+        v[i] = static_cast<int>(parseInteger(option, parts[i], 0, kMaxFilmSide));
     if (v[0] >= v[2] || v[1] >= v[3]) throw InputError(option, fmt::format("'{}' holds no pixel", text));
     return {v[0], v[1], v[2], v[3]};
 }

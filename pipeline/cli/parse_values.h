@@ -11,9 +11,6 @@
 
 namespace edgewise::cli {
 
-/// Longest side of a picture: the guard band of 2^20 px holds it four times over.
-inline constexpr int kMaxSidePx = 1 << 18;
-
 /// The whole of `text` as one finite number.
 double parseNumber(const std::string& option, const std::string& text);
 
@@ -25,7 +22,7 @@ std::int64_t parseInteger(const std::string& option, const std::string& text, st
 glm::dvec2 parsePair(const std::string& option, const std::string& text);
 glm::dvec3 parseTriple(const std::string& option, const std::string& text);
 
-/// `WxH`, each from 1 to kMaxSidePx.
+/// `WxH`, each from 1 to kMaxFilmSide.
 glm::ivec2 parseSize(const std::string& option, const std::string& text);
 
 /// `X0,Y0,X1,Y1`, half-open and not empty; whether it lies inside the picture is checkCrop()'s question.

@@ -102,10 +102,10 @@ std::vector<std::string> describeMethods();
 
 /// What the registry holds for each method; a new method adds one entry in registry.cpp.
 struct MethodEntry {
-    enum class Number { kNone, kRequired };
+    enum class Number { kAbsent, kRequired };
     std::string name;
     std::string summary;
-    Number number = Number::kNone;
+    Number number = Number::kAbsent;
     int smallest = 1, largest = 64;                           ///< of the number
     std::map<std::string, std::vector<std::string>> choices;  ///< parameter -> what it may be; device is added to all
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;

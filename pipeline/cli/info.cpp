@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/picture_options.h"
+#include "pipeline/progress_bar.h"
+#include "pipeline/shade.h"
+
+namespace edgewise::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+    PictureArguments picture;
+    bool json = false;
+};
+
+Json asJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// Rows from the top: eye = view * world, for column vectors.
+Json asJson(const glm::dmat4& m) {
+    Json rows = Json::array();
+    for (int r = 0; r < 4; ++r) rows.push_back({m[0][r], m[1][r], m[2][r], m[3][r]});
+    return rows;
+}
+
+Json countsJson(const Scene& scene) {
+    std::size_t vertices = 0;
+    for (const Geometry& geometry : scene.geometry) vertices += geometry.position_world.size();
+    return {{"triangles", scene.triangle_count},     {"vertices", vertices},
+            {"primitives", scene.geometry.size()},   {"nodes", scene.node_names.size()},
+            {"meshes", scene.mesh_names.size()},     {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},     {"images", scene.images.size()},
+            {"cameras", scene.cameras.size()}};
+}
+
+/// Radians; a far plane at infinity is null.
+Json lensJson(const Camera& camera) {
+    Json json{{"type", camera.perspective ? "perspective" : "orthographic"}};
+    if (camera.perspective)
+        json["yfov"] = camera.yfov;
+    else
+        json["ymag"] = camera.ymag;
+    json["near"] = camera.znear;
+    json["far"] = camera.zfar ? Json(*camera.zfar) : Json(nullptr);
+    return json;
+}
+
+Json camerasJson(const Scene& scene) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Camera& camera = scene.cameras[i];
+        Json json{{"index", i}, {"name", camera.name}, {"node", camera.node}};
+        json.update(lensJson(camera));
+        json["aspect"] = camera.aspect ? Json(*camera.aspect) : Json(nullptr);
+        list.push_back(json);
+    }
+    return list;
+}
+
+Json resolvedCameraJson(const Picture& picture) {
+    Json json{{"origin", picture.camera.origin}, {"name", picture.camera.camera.name}};
+    json.update(lensJson(picture.camera.camera));
+    json["view"] = asJson(picture.camera.camera_from_world);
+    json["size"] = {picture.film.width, picture.film.height};
+    return json;
+}
+
+/// The default rig, in eye space.
+Json lightsJson() {
+    Json list{{{"type", "ambient"}, {"intensity", kRigAmbient}}};
+    for (const RigLight& light : {kRigKey, kRigFill})
+        list.push_back({{"type", "directional"},
+                        {"frame", "camera"},
+                        {"towards", asJson(light.towards)},
+                        {"intensity", light.intensity}});
+    return list;
+}
+
+Json ignoredJson(const Scene& scene) {
+    Json list = Json::array();
+    for (const Ignored& ignored : scene.ignored) list.push_back({{"what", ignored.what}, {"count", ignored.count}});
+    return list;
+}
+
+Json infoJson(const Picture& picture) {
+    const Scene& scene = picture.scene;
+    return {{"scene", scene.source},
+            {"counts", countsJson(scene)},
+            {"bounds", {{"min", asJson(scene.bounds_min)}, {"max", asJson(scene.bounds_max)}}},
+            {"cameras", camerasJson(scene)},
+            {"camera", resolvedCameraJson(picture)},
+            {"lights", lightsJson()},
+            {"ignored", ignoredJson(scene)}};
+}
+
+/// "name value" a line; lists of objects one object a line.
+void printInWords(const Json& info) {
+    for (const auto& [name, value] : info.items()) {
+        if (value.is_array() && value.empty()) {
+            fmt::print("{:<8} none\n", name);
+        } else if (value.is_array()) {
+            for (const Json& entry : value) fmt::print("{:<8} {}\n", name, entry.dump());
+        } else if (value.is_object()) {
+            for (const auto& [key, entry] : value.items()) fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
+        } else {
+            fmt::print("{:<8} {}\n", name, value.get<std::string>());
+        }
+    }
+}
+
+void info(const InfoArguments& arguments) {
+    ProgressBar quiet(false, interruptFlag());
+    const Json json = infoJson(loadPicture(arguments.picture, quiet));
+    if (arguments.json)
+        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    else
+        printInWords(json);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("info", "what is in a scene, its resolved camera and lights, what is ignored");
+    auto arguments = std::make_shared<InfoArguments>();
+    addPictureOptions(*command, arguments->picture);
+    command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");
+    command->callback([arguments] { info(*arguments); });
+}
+
+}  // namespace edgewise::cli

@@ -1,0 +1,192 @@
+// Non-sampled antialiasing (Auzinger et al. 2013): every pixel is the closed-form integral of the prefilter over the
+// visible part of every triangle. project -> plan -> gather -> visibility -> weights -> shade and blend.
+#include "pipeline/methods/nsaa.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "pipeline/bands.h"
+#include "pipeline/blend.h"
+#include "pipeline/gather.h"
+#include "pipeline/methods/registry.h"
+#include "pipeline/methods/stopwatch.h"
+#include "pipeline/plan.h"
+
+namespace edgewise {
+namespace {
+
+/// Supports end R from a sample; a pixel more keeps the window's own cuts out of every support.
+double reachOf(const Prefilter& filter) { return filter.radius + 1.0; }
+
+Window windowOf(const PixelBox& box, glm::dvec2 offset_px, double reach) {
+    return {static_cast<int>(std::floor(box.x0 + offset_px.x - reach)),
+            static_cast<int>(std::floor(box.y0 + offset_px.y - reach)),
+            static_cast<int>(std::ceil(box.x1 + offset_px.x + reach)),
+            static_cast<int>(std::ceil(box.y1 + offset_px.y + reach))};
+}
+
+/// One thread's scratch, and the time that its two stages took.
+struct TileWorker {
+    WeightWorker weights;
+    WeightTile tile;
+    std::vector<StageTime> times;
+    std::uint64_t pairs = 0;
+};
+
+class Nsaa {
+  public:
+    explicit Nsaa(const MethodInput& in)
+        : in_(in),
+          screen_(project(in.scene, in.camera, in.film, pieces_)),
+          shading_(in.scene, in.camera, in.film, screen_, pieces_) {
+        watch_.book("project", result_.stages);
+        plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
+        watch_.book("plan", result_.stages);
+    }
+
+    MethodResult render() {
+        const PixelBox& crop = in_.film.crop;
+        result_.image = ImageBuffer(crop);
+        const std::vector<PixelBox> bands = cutIntoBands(crop);
+        in_.progress.stage("weights", static_cast<std::size_t>(crop.height()));
+        for (const PixelBox& band : bands) renderBand(band);
+        result_.plan = plan_.entries;
+        fillCounts(bands.size());
+        return std::move(result_);
+    }
+
+    PixelReport report(int x, int y) {
+        plan_.classes.representative.clear();
+        const PixelBox box{x, y, x + 1, y + 1};
+        const VisibleMap map = visibleMapOf(box);
+        TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+        const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
+        worker.weights.run(map, tiles.segments.ids, plan_.classes, box, offset(), worker.tile);
+        PixelReport out;
+        FixedWeight sum = 0;
+        for (const OwnerWeight& entry : worker.tile.entries) {
+            const double weight = std::ldexp(static_cast<double>(entry.weight), -kWeightBits);
+            sum += entry.weight;
+            if (entry.owner == kBackground)
+                out.background = weight;
+            else
+                out.owners.push_back({entry.owner, weight, shade(entry.owner, glm::dvec2(x + 0.5, y + 0.5) + offset())});
+        }
+        out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
+        return out;
+    }
+
+  private:
+    glm::dvec2 offset() const { return in_.film.debug_offset_px; }
+
+    glm::dvec3 shade(Owner owner, glm::dvec2 sample_px) const {
+        if (!plan_.constant.empty() && plan_.constant[owner]) return *plan_.constant[owner];
+        return shading_.closest(owner, sample_px);
+    }
+
+    /// The buffers beside the image share what --memory leaves.
+    std::vector<PixelBox> cutIntoBands(const PixelBox& crop) {
+        const CellGrid grid(windowOf(crop, offset(), reachOf(in_.filter)));
+        const IdLists lists = gather(screen_, grid);
+        counts_["cell_triangle_pairs"] = lists.ids.size();
+        const std::size_t limit = in_.options.memory_mib << 20;
+        const std::size_t image = result_.image.rgba.size() * sizeof(glm::dvec4) + result_.image.edge.size() * sizeof(float);
+        if (image >= limit)
+            throw FailureError("--memory", fmt::format("the image alone needs {} MiB", image >> 20));
+        auto bands = bandsFor(crop, grid, lists, reachOf(in_.filter), offset(), limit - image);
+        watch_.book("gather", result_.stages);
+        return bands;
+    }
+
+    VisibleMap visibleMapOf(const PixelBox& box) {
+        const CellGrid grid(windowOf(box, offset(), reachOf(in_.filter)));
+        const IdLists lists = gather(screen_, grid);
+        watch_.book("gather", result_.stages);
+        VisibleMap map = visibility(screen_, grid, lists, plan_.visibility, in_.progress, visibility_counts_);
+        watch_.book("visibility", result_.stages);
+        counts_["segments"] += map.segments.size();
+        return map;
+    }
+
+    void renderBand(const PixelBox& band) {
+        checkCancelled(in_.progress);
+        const VisibleMap map = visibleMapOf(band);
+        const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
+        watch_.book("gather", result_.stages);
+        tbb::enumerable_thread_specific<TileWorker> workers(
+            [&] { return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}}; });
+        tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
+            checkCancelled(in_.progress);
+            renderTile(map, tiles, t, workers.local());
+        });
+        in_.progress.advance(static_cast<std::size_t>(band.height()));
+        bookTiles(workers, watch_.lap());
+    }
+
+    void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {
+        const auto& lists = tiles.segments;
+        Stopwatch watch;
+        worker.weights.run(map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
+                           plan_.classes, tiles.boxes[t], offset(), worker.tile);
+        watch.book("weights", worker.times);
+        worker.pairs += worker.tile.entries.size();
+        blend(worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); }, in_.options.background,
+              result_.image);
+        watch.book("blend", worker.times);
+    }
+
+    /// Two stages share the tile loop: its wall time is divided as its threads' time was.
+    void bookTiles(tbb::enumerable_thread_specific<TileWorker>& workers, double wall) {
+        double total = 0.0;
+        for (const TileWorker& w : workers)
+            for (const StageTime& s : w.times) total += s.seconds;
+        for (const TileWorker& w : workers) {
+            for (const StageTime& s : w.times) bookSeconds(s.name, wall * s.seconds / total);
+            counts_["terms"] += w.weights.terms();
+            counts_["interior_pixels"] += w.weights.interiorPixels();
+            counts_["label_conflicts"] += w.weights.labelConflicts();
+            counts_["pixel_owner_pairs"] += w.pairs;
+        }
+    }
+
+    void bookSeconds(const std::string& name, double seconds) {
+        for (StageTime& known : result_.stages)
+            if (known.name == name) return void(known.seconds += seconds);
+        result_.stages.push_back({name, seconds});
+    }
+
+    void fillCounts(std::size_t bands) {
+        counts_["triangles"] = in_.scene.triangle_count;
+        counts_["screen_triangles"] = screen_.triangles.size();
+        counts_["bands"] = bands;
+        counts_["cells_swept"] = visibility_counts_.cells;
+        counts_["cells_certified"] = visibility_counts_.certified;
+        counts_["slabs"] = visibility_counts_.slabs;
+        counts_["depth_lines"] = visibility_counts_.depth_lines;
+        counts_["exact_depths"] = visibility_counts_.exact_depth;
+        counts_["hidden_pairs"] = visibility_counts_.hidden;
+        result_.counts = counts_;
+    }
+
+    const MethodInput& in_;
+    MethodResult result_;
+    Stopwatch watch_;
+    ScreenPieces pieces_;
+    ScreenScene screen_;
+    Shading shading_;
+    Plan plan_;
+    VisibilityCounts visibility_counts_;
+    std::map<std::string, std::uint64_t> counts_;
+};
+
+}  // namespace
+
+MethodResult runNsaa(const MethodSpec&, const MethodInput& input) { return Nsaa(input).render(); }
+
+PixelReport pixelWeights(const MethodInput& input, int x, int y) { return Nsaa(input).report(x, y); }
+
+}  // namespace edgewise

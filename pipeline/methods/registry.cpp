@@ -1,0 +1,132 @@
+#include "pipeline/methods/registry.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "pipeline/error.h"
+
+namespace edgewise {
+namespace {
+
+const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
+
+const MethodEntry* findMethod(std::string_view name) {
+    const auto& registry = methodRegistry();
+    const auto found = std::find_if(registry.begin(), registry.end(), [&](const auto& m) { return m.name == name; });
+    return found == registry.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void fail(std::string_view typed, const std::string& why) {
+    throw InputError(fmt::format("method '{}'", typed), why);
+}
+
+const MethodEntry& requireMethod(std::string_view typed, std::string_view name) {
+    if (const MethodEntry* entry = findMethod(name)) return *entry;
+    std::vector<std::string> names;
+    for (const MethodEntry& entry : methodRegistry()) names.push_back(entry.name);
+    fail(typed, fmt::format("no method is called '{}' in this build, only {}", name, fmt::join(names, ", ")));
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t at = text.find(separator);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+    }
+}
+
+void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spec) {
+    if (entry.number == MethodEntry::Number::kAbsent) fail(spec.typed, fmt::format("'{}' takes no number", entry.name));
+    if (spec.number) fail(spec.typed, "has two numbers");
+    int value = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+    if (!whole || value < entry.smallest || value > entry.largest)
+        fail(spec.typed, fmt::format("'{}' is not a number from {} to {}", text, entry.smallest, entry.largest));
+    spec.number = value;
+}
+
+void takeParameter(std::string_view key, std::string_view value, const MethodEntry& entry, MethodSpec& spec) {
+    const auto known = entry.choices.find(std::string(key));
+    if (key != "device" && known == entry.choices.end())
+        fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
+    const std::vector<std::string>& choices = key == "device" ? kDevices : known->second;
+    if (std::find(choices.begin(), choices.end(), value) == choices.end())
+        fail(spec.typed, fmt::format("{} is {}, not '{}'", key, fmt::join(choices, " or "), value));
+    if (!spec.parameters.emplace(key, value).second) fail(spec.typed, fmt::format("{} is given twice", key));
+}
+
+MethodSpec parseOne(std::string_view typed) {
+    MethodSpec spec;
+    spec.typed = typed;
+    const std::size_t colon = typed.find_first_of(":,");
+    spec.name = typed.substr(0, colon);
+    const MethodEntry& entry = requireMethod(typed, spec.name);
+    if (colon != std::string_view::npos)
+        for (const std::string_view part : split(typed.substr(colon + 1), ',')) {
+            const std::size_t equals = part.find('=');
+            if (equals == std::string_view::npos)
+                takeNumber(part, entry, spec);
+            else
+                takeParameter(part.substr(0, equals), part.substr(equals + 1), entry, spec);
+        }
+    if (entry.number == MethodEntry::Number::kRequired && !spec.number)
+        fail(typed, fmt::format("needs a number, as in '{}:4'", entry.name));
+    return spec;
+}
+
+std::string describe(const MethodEntry& entry) {
+    std::vector<std::string> parameters;
+    if (entry.number == MethodEntry::Number::kRequired)
+        parameters.push_back(fmt::format("{}..{}", entry.smallest, entry.largest));
+    for (const auto& [key, choices] : entry.choices) parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
+    parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
+    return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
+}
+
+}  // namespace
+
+const std::vector<MethodEntry>& methodRegistry() {
+    static const std::vector<MethodEntry> registry{
+        {.name = "none", .summary = "one sample at the pixel's centre", .choices = {}, .run = runNone},
+        {.name = "ssaa",
+         .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
+         .number = MethodEntry::Number::kRequired,
+         .choices = {},
+         .run = runSsaa},
+    };
+    return registry;
+}
+
+MethodSpec parseMethod(std::string_view typed) {
+    const auto parts = split(typed, '+');
+    MethodSpec spec = parseOne(parts.front());
+    spec.typed = typed;
+    for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
+    return spec;
+}
+
+MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
+    const MethodEntry& entry = requireMethod(spec.typed, spec.name);
+    if (!spec.composed.empty()) fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
+    tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
+    MethodResult result;
+    arena.execute([&] { result = entry.run(spec, input); });
+    if (spec.parameter("device", "auto") == "vulkan" && result.device != "vulkan")
+        result.notes.push_back(fmt::format("'{}' has no Vulkan form here and ran on the CPU", spec.name));
+    return result;
+}
+
+std::vector<std::string> describeMethods() {
+    std::vector<std::string> lines;
+    for (const MethodEntry& entry : methodRegistry()) lines.push_back(describe(entry));
+    return lines;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,13 @@
+// The methods of this build. A new method is declared here and listed in registry.cpp.
+#pragma once
+
+#include "pipeline/methods/method.h"
+
+namespace edgewise {
+
+const std::vector<MethodEntry>& methodRegistry();
+
+MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
+MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
+
+}  // namespace edgewise

@@ -1,0 +1,254 @@
+// K x K samples a pixel, shared by the pixels whose filter reaches them; each (pixel, owner) is shaded once.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+#include "pipeline/methods/point_samples.h"
+#include "pipeline/methods/registry.h"
+#include "pipeline/methods/sample_weights.h"
+#include "pipeline/methods/stopwatch.h"
+#include "pipeline/shade.h"
+
+namespace edgewise {
+namespace {
+
+/// The samples of a window of pixels.
+struct SampleBand {
+    PixelBox window;
+    std::size_t stride = 0;            ///< samples a row
+    std::vector<Owner> owner;
+    std::vector<std::uint32_t> run_end;  ///< the first sample of the row, at or after this one, with another owner
+    std::vector<glm::dvec3> colour;      ///< where each sample is shaded where it lands
+};
+
+/// Samples [begin, end) of one row of a pixel's window that one owner covers.
+struct OwnerRun {
+    Owner owner;
+    int row, begin, end;
+};
+
+/// An owner's part of a pixel.
+struct OwnerPart {
+    glm::dvec3 weighted{0.0};  ///< weight times colour
+    glm::dvec3 colour{0.0};
+    double weight = 0.0;
+};
+
+double toDouble(FixedWeight weight) { return std::ldexp(static_cast<double>(weight), -kWeightBits); }
+
+class PixelFilter {
+  public:
+    PixelFilter(const MethodInput& in, const Shading& shading, const SampleWeights& weights, int per_side)
+        : in_(in), shading_(shading), weights_(weights), per_side_(per_side) {}
+
+    void shadeSamples(SampleBand& band) const {
+        band.colour.resize(band.owner.size());
+        tbb::parallel_for(std::size_t(0), band.owner.size() / band.stride, [&](std::size_t row) {
+            for (std::size_t i = row * band.stride; i < (row + 1) * band.stride; ++i)
+                band.colour[i] = colourAt(band.owner[i], position(band, row, i - row * band.stride));
+        });
+    }
+
+    void filterRow(const SampleBand& band, int y, ImageBuffer& image, std::atomic<std::uint64_t>& shaded) const {
+        std::vector<OwnerRun> runs;
+        std::uint64_t count = 0;
+        for (int x = image.box.x0; x < image.box.x1; ++x) {
+            collectRuns(band, x, y, runs);
+            count += blend(band, x, y, runs, image);
+        }
+        shaded += count;
+    }
+
+  private:
+    /// In owner order; an owner's runs from top to bottom, left to right.
+    void collectRuns(const SampleBand& band, int x, int y, std::vector<OwnerRun>& runs) const {
+        runs.clear();
+        bool mixed = false;
+        for (int row = 0; row < static_cast<int>(weights_.rows.size()); ++row) {
+            const SampleWeights::Row& w = weights_.rows[row];
+            const std::size_t start = firstSample(band, x, y, row);
+            const auto column = static_cast<std::uint32_t>(start % band.stride);
+            for (int begin = 0; begin < w.size();) {
+                const int run_end = static_cast<int>(band.run_end[start + begin] - column);
+                const int end = std::min(run_end, w.size());
+                runs.push_back({band.owner[start + begin], row, begin, end});
+                mixed |= runs.back().owner != runs.front().owner;
+                begin = end;
+            }
+        }
+        if (mixed) std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.owner < b.owner; });
+    }
+
+    std::size_t firstSample(const SampleBand& band, int x, int y, int row) const {
+        const int top = (y - weights_.margin_px - band.window.y0) * per_side_;
+        const int left = (x - weights_.margin_px - band.window.x0) * per_side_;
+        return static_cast<std::size_t>(top + row) * band.stride + left + weights_.rows[row].first;
+    }
+
+    std::uint64_t blend(const SampleBand& band, int x, int y, const std::vector<OwnerRun>& runs, ImageBuffer& image) const {
+        glm::dvec4 sum(0.0);
+        glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+        std::uint64_t owners = 0;
+        for (std::size_t begin = 0; begin < runs.size(); ++owners) {
+            std::size_t end = begin + 1;
+            while (end < runs.size() && runs[end].owner == runs[begin].owner) ++end;
+            const OwnerPart part = partOf(band, x, y, std::span(runs).subspan(begin, end - begin));
+            sum += glm::dvec4(part.weighted, runs[begin].owner == kBackground ? 0.0 : part.weight);
+            least = glm::min(least, part.colour);
+            most = glm::max(most, part.colour);
+            begin = end;
+        }
+        const glm::dvec3 contrast = most - least;
+        image.rgba[image.index(x, y)] = sum;
+        image.edge[image.index(x, y)] = std::max({contrast.r, contrast.g, contrast.b}) > kEdgeContrast ? 1.0f : 0.0f;
+        return owners;
+    }
+
+    OwnerPart partOf(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
+        FixedWeight weight = 0;
+        for (const OwnerRun& run : runs) weight += weights_.rows[run.row].of(run.begin, run.end);
+        OwnerPart part;
+        part.weight = toDouble(weight);
+        if (in_.options.shading.mode == ShadingMode::kHit) return hitPart(band, x, y, runs, part);
+        part.colour = shade(band, x, y, runs);
+        part.weighted = part.colour * part.weight;
+        return part;
+    }
+
+    glm::dvec3 shade(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
+        const Owner owner = runs.front().owner;
+        if (owner == kBackground) return in_.options.background;
+        if (in_.options.shading.mode == ShadingMode::kClosest) return shading_.closest(owner, {x + 0.5, y + 0.5});
+        if (const auto colour = shading_.constant(owner)) return *colour;
+        const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
+        if (in_.options.shading.mode == ShadingMode::kCentroid) {
+            glm::dvec2 sum(0.0);
+            for (const glm::dvec2& p : seen) sum += p - glm::dvec2(x, y);
+            return shading_.closest(owner, glm::dvec2(x, y) + sum / double(seen.size()));
+        }
+        return meanOver(owner, seen);
+    }
+
+    /// The mean over N of the seen samples, spread evenly in their order.
+    glm::dvec3 meanOver(Owner owner, const std::vector<glm::dvec2>& seen) const {
+        const std::size_t count = std::min<std::size_t>(in_.options.shading.samples, seen.size());
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < count; ++i)
+            sum += shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]);
+        return sum / double(count);
+    }
+
+    OwnerPart hitPart(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs, OwnerPart part) const {
+        std::size_t count = 0;
+        for (const OwnerRun& run : runs) {
+            const std::size_t start = firstSample(band, x, y, run.row);
+            for (int i = run.begin; i < run.end; ++i, ++count) {
+                part.colour += band.colour[start + i];
+                part.weighted += band.colour[start + i] * toDouble(weights_.rows[run.row].of(i, i + 1));
+            }
+        }
+        part.colour /= double(count);
+        return part;
+    }
+
+    std::vector<glm::dvec2> seenAt(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
+        std::vector<glm::dvec2> seen;
+        for (const OwnerRun& run : runs) {
+            const std::size_t start = firstSample(band, x, y, run.row);
+            for (int i = run.begin; i < run.end; ++i)
+                seen.push_back(position(band, (start + i) / band.stride, (start + i) % band.stride));
+        }
+        return seen;
+    }
+
+    glm::dvec2 position(const SampleBand& band, std::size_t row, std::size_t column) const {
+        auto place = [&](int first, std::size_t i) {
+            const int sample = static_cast<int>(i);
+            return first + sample / per_side_ + sampleOffsetPx(sample % per_side_, per_side_);
+        };
+        return {place(band.window.x0, column), place(band.window.y0, row)};
+    }
+
+    glm::dvec3 colourAt(Owner owner, glm::dvec2 p_px) const {
+        return owner == kBackground ? in_.options.background : shading_.atPoint(owner, p_px);
+    }
+
+    const MethodInput& in_;
+    const Shading& shading_;
+    const SampleWeights& weights_;
+    int per_side_;
+};
+
+void findRuns(SampleBand& band) {
+    band.run_end.resize(band.owner.size());
+    tbb::parallel_for(std::size_t(0), band.owner.size() / band.stride, [&](std::size_t row) {
+        const Owner* owner = band.owner.data() + row * band.stride;
+        std::uint32_t* end = band.run_end.data() + row * band.stride;
+        for (std::size_t j = band.stride; j-- > 0;) {
+            const bool last = j + 1 == band.stride || owner[j + 1] != owner[j];
+            end[j] = last ? static_cast<std::uint32_t>(j + 1) : end[j + 1];
+        }
+    });
+}
+
+PixelBox grown(const PixelBox& box, int margin) {
+    return {box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
+}
+
+/// Rows of pixels whose samples fit half the memory; at least one.
+int rowsPerBand(const RenderOptions& options, const PixelBox& crop, int margin, int per_side) {
+    const bool hit = options.shading.mode == ShadingMode::kHit;
+    const double bytes = sizeof(Owner) + sizeof(std::uint32_t) + (hit ? sizeof(glm::dvec3) : 0);
+    const double row_bytes = bytes * per_side * per_side * (crop.width() + 2.0 * margin);
+    const double rows = 0.5 * 0x1p20 * double(options.memory_mib) / row_bytes - 2.0 * margin;
+    return static_cast<int>(std::clamp(rows, 1.0, double(crop.height())));
+}
+
+}  // namespace
+
+MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
+    MethodResult result;
+    Stopwatch watch;
+    const int per_side = *spec.number;
+    const SampleWeights weights(in.filter, per_side);
+    ScreenPieces pieces;
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    const Shading shading(in.scene, in.camera, in.film, screen, pieces);
+    const PixelFilter filter(in, shading, weights, per_side);
+    watch.book("project", result.stages);
+    checkCancelled(in.progress);
+    const PixelBox& crop = in.film.crop;
+    const PointSampler sampler(screen, grown(crop, weights.margin_px), per_side);
+    watch.book("gather", result.stages);
+    result.image = ImageBuffer(crop);
+    std::atomic<std::uint64_t> shaded{0};
+    std::uint64_t samples = 0;
+    const int rows = rowsPerBand(in.options, crop, weights.margin_px, per_side);
+    in.progress.stage("ssaa", crop.height());
+    for (int y = crop.y0; y < crop.y1; y += rows) {
+        const PixelBox part{crop.x0, y, crop.x1, std::min(y + rows, crop.y1)};
+        SampleBand band;
+        band.window = grown(part, weights.margin_px);
+        band.stride = static_cast<std::size_t>(band.window.width()) * per_side;
+        band.owner = sampler.sample(band.window);
+        samples += band.owner.size();
+        watch.book("visibility", result.stages);
+        findRuns(band);
+        if (in.options.shading.mode == ShadingMode::kHit) filter.shadeSamples(band);
+        tbb::parallel_for(part.y0, part.y1, [&](int row) {
+            if (in.progress.cancelled()) return;
+            filter.filterRow(band, row, result.image, shaded);
+            in.progress.advance(1);
+        });
+        checkCancelled(in.progress);
+        watch.book("shade", result.stages);
+    }
+    result.counts = {{"triangles", in.scene.triangle_count}, {"pieces", screen.triangles.size()},
+                     {"samples", samples}, {"shaded", shaded}, {"exact_depths", sampler.exactDepths()}};
+    return result;
+}
+
+}  // namespace edgewise
