@@ -95,6 +95,10 @@ std::string describe(const MethodEntry& entry) {
 const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
         {.name = "none", .summary = "one sample at the pixel's centre", .choices = {}, .run = runNone},
+        {.name = "nsaa",
+         .summary = "the exact integral of the filter over what is visible of every triangle",
+         .choices = {{"visibility", {"slab"}}},
+         .run = runNsaa},
         {.name = "ssaa",
          .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
          .number = MethodEntry::Number::kRequired,
