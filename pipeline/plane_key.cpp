@@ -14,7 +14,9 @@ std::uint64_t addMod(std::uint64_t a, std::uint64_t b) {
     return sum >= kPrime ? sum - kPrime : sum;
 }
 
-std::uint64_t subMod(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
+std::uint64_t subMod(std::uint64_t a, std::uint64_t b) {
+    return a >= b ? a - b : a + kPrime - b;
+}
 
 std::uint64_t mulMod(std::uint64_t a, std::uint64_t b) {
     __extension__ using Wide = unsigned __int128;
@@ -43,7 +45,9 @@ std::uint64_t residue(float value) {
 
 using Vector = std::array<std::uint64_t, 3>;
 
-Vector residues(const glm::vec3& p) { return {residue(p.x), residue(p.y), residue(p.z)}; }
+Vector residues(const glm::vec3& p) {
+    return {residue(p.x), residue(p.y), residue(p.z)};
+}
 
 Vector difference(const Vector& a, const Vector& b) {
     return {subMod(a[0], b[0]), subMod(a[1], b[1]), subMod(a[2], b[2])};
