@@ -24,9 +24,10 @@ Window around(glm::ivec2 pixel, int reach) {
     return {pixel.x - reach, pixel.y - reach, pixel.x + reach + 1, pixel.y + reach + 1};
 }
 
-/// A folded surface: triangles that overlap share sides, where their rounded planes are equal only to rounding. The judge
-/// compares the planes as they are, visibility takes a shared vertex as a point of both: they differ in a seam about
-/// 2^-53 |z| / |grad z| wide, and what is granted is an area a tenth of the weights' target on each judged square px.
+/// A folded surface: triangles that overlap share sides, where their rounded planes are equal only to
+/// rounding. The judge compares the planes as they are, visibility takes a shared vertex as a point of both:
+/// they differ in a seam about 2^-53 |z| / |grad z| wide, and what is granted is an area a tenth of the
+/// weights' target on each judged square px.
 bool foldsOverSharedSides(SceneKind kind) {
     return kind == SceneKind::kClosedMesh || kind == SceneKind::kClosedMeshBothSides;
 }
@@ -42,18 +43,22 @@ TEST_P(VisibilityTruth, EveryScanlineHasTheRightOwners) {
     options.check_closure = true;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
         const RandomScene random = makeRandomScene(GetParam(), seed);
-        const VisibleMap map = visibleMap(random.scene, around(random.centre, kReachPx + 1), options, &counts);
-        const auto verdict = witness::compareMap(random.scene, map, glm::dvec2(random.centre) + 0.5, kReachPx, seed, 20);
+        const VisibleMap map =
+            visibleMap(random.scene, around(random.centre, kReachPx + 1), options, &counts);
+        const auto verdict =
+            witness::compareMap(random.scene, map, glm::dvec2(random.centre) + 0.5, kReachPx, seed, 20);
         EXPECT_TRUE(verdict.good() || foldsOverSharedSides(GetParam()))
             << "seed " << seed << ": " << verdict.broken << " broken, " << verdict.disagreements
             << " wrong; first: " << verdict.first;
         EXPECT_LE(verdict.wrong_px2, kWrongArea) << "seed " << seed << ", first: " << verdict.first;
         all.add(verdict);
     }
-    fmt::print("{}: {} scanlines, {} crossings, worst offset {:.1e} px, wrong {:.1e} px2 ({} broken), {} exact depth signs, "
-               "{} depth lines, gap {:.1e}\n",
-               nameOf(GetParam()), all.scanlines, all.crossings, double(all.worst_offset_px), double(all.wrong_px2),
-               all.broken, counts.exact_depth, counts.depth_lines, counts.widest_gap_px);
+    fmt::print(
+        "{}: {} scanlines, {} crossings, worst offset {:.1e} px, wrong {:.1e} px2 ({} broken), {} exact "
+        "depth signs, "
+        "{} depth lines, gap {:.1e}\n",
+        nameOf(GetParam()), all.scanlines, all.crossings, double(all.worst_offset_px), double(all.wrong_px2),
+        all.broken, counts.exact_depth, counts.depth_lines, counts.widest_gap_px);
     EXPECT_GT(all.crossings, 1000u);
 }
 
@@ -95,8 +100,8 @@ std::vector<std::size_t> canonicalOrder(const VisibleMap& map) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto key = [&](std::size_t k) {
         const VisibleSegment& s = map.segments[k];
-        return std::tuple(s.a.grid.y, s.a.rest.y, s.a.grid.x, s.a.rest.x, s.b.grid.y, s.b.rest.y, s.b.grid.x, s.b.rest.x,
-                          s.left, s.right);
+        return std::tuple(s.a.grid.y, s.a.rest.y, s.a.grid.x, s.a.rest.x, s.b.grid.y, s.b.rest.y, s.b.grid.x,
+                          s.b.rest.x, s.left, s.right);
     };
     std::sort(order.begin(), order.end(), [&](std::size_t k, std::size_t l) { return key(k) < key(l); });
     return order;
@@ -108,8 +113,8 @@ bool same(const FinePoint& p, const FinePoint& q, glm::dvec2 by_px) {
 }
 
 bool same(const CarrierLine& l, const CarrierLine& m) {
-    return l.nx_hi == m.nx_hi && l.nx_lo == m.nx_lo && l.ny_hi == m.ny_hi && l.ny_lo == m.ny_lo && l.c_hi == m.c_hi &&
-           l.c_lo == m.c_lo && l.length == m.length && l.direction == m.direction;
+    return l.nx_hi == m.nx_hi && l.nx_lo == m.nx_lo && l.ny_hi == m.ny_hi && l.ny_lo == m.ny_lo &&
+           l.c_hi == m.c_hi && l.c_lo == m.c_lo && l.length == m.length && l.direction == m.direction;
 }
 
 TEST_P(VisibilityTruth, WholeCellsMoveItExactly) {

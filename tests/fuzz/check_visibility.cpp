@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kReachPx = 3;
 constexpr int kRandomLines = 6;
-/// The weights' target, on each px2 that is judged along either axis: what two roundings of one depth may differ in.
+/// The weights' target, on each px2 that is judged along either axis: what two roundings of one depth may
+/// differ in.
 constexpr double kWrongPx2 = 1e-12 * 2 * (2 * kReachPx) * (2 * kReachPx);
 
 bool finite(const FinePoint& p) {
@@ -35,12 +36,13 @@ std::string checkSegments(const VisibleMap& map) {
 
 std::string checkVisibility(const ScreenScene& scene) {
     const int centre = int(std::floor(kSamplePx)), reach = kReachPx + 1;
-    const VisibleMap map = visibleMap(scene, {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1});
+    const VisibleMap map =
+        visibleMap(scene, {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1});
     if (std::string wrong = checkSegments(map); !wrong.empty()) return wrong;
     const auto verdict = witness::compareMap(scene, map, {kSamplePx, kSamplePx}, kReachPx, 1, kRandomLines);
     if (verdict.wrong_px2 <= kWrongPx2) return {};
-    return fmt::format("{:.3g} px2 wrong, {} places without a single owner; first: {}", double(verdict.wrong_px2),
-                       verdict.broken, verdict.first);
+    return fmt::format("{:.3g} px2 wrong, {} places without a single owner; first: {}",
+                       double(verdict.wrong_px2), verdict.broken, verdict.first);
 }
 
 }  // namespace edgewise::fuzz

@@ -24,15 +24,22 @@ class Bytes {
 double coordinate(std::uint8_t byte, double step) {
     const double lattice = kSamplePx + (double(byte & 31) - 16) * step;
     switch (byte >> 5) {
-        case 1: return lattice + kGridPx;
-        case 2: return lattice - kGridPx;
-        case 3: return kSamplePx + (lattice - kSamplePx) * 0x1p10;
-        case 4: return kSamplePx + (lattice - kSamplePx) * 0x1p-12;
-        default: return lattice;
+        case 1:
+            return lattice + kGridPx;
+        case 2:
+            return lattice - kGridPx;
+        case 3:
+            return kSamplePx + (lattice - kSamplePx) * 0x1p10;
+        case 4:
+            return kSamplePx + (lattice - kSamplePx) * 0x1p-12;
+        default:
+            return lattice;
     }
 }
 
-double depth(std::uint8_t byte) { return double(byte & 15) / 8 + (byte & 64 ? 0x1p-40 : 0); }
+double depth(std::uint8_t byte) {
+    return double(byte & 15) / 8 + (byte & 64 ? 0x1p-40 : 0);
+}
 
 void addTriangle(SceneBuilder& builder, Bytes& bytes, double step, double apart) {
     const std::uint8_t how = bytes.next();
@@ -62,7 +69,8 @@ ScreenScene sceneFromBytes(std::span<const std::uint8_t> input) {
     const double step = std::ldexp(1.0, -(bytes.next() % 5));
     const double apart = std::ldexp(1.0, -(bytes.next() % 56));
     SceneBuilder builder({kSamplePx, kSamplePx});
-    for (std::size_t k = 0; k < kMostTriangles && !bytes.empty(); ++k) addTriangle(builder, bytes, step, apart);
+    for (std::size_t k = 0; k < kMostTriangles && !bytes.empty(); ++k)
+        addTriangle(builder, bytes, step, apart);
     return builder.scene();
 }
 

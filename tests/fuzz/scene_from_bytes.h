@@ -1,4 +1,5 @@
-// Any bytes as a screen scene, degenerate on purpose: few coordinates, shared planes, duplicates, collinear points.
+// Any bytes as a screen scene, degenerate on purpose: few coordinates, shared planes, duplicates, collinear
+// points.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@ namespace edgewise::fuzz {
 inline constexpr double kSamplePx = 8.5;
 inline constexpr std::size_t kMostTriangles = 12;
 
-/// Two bytes of scene (the lattice that corners lie on, how far apart near-coincident planes are), then ten bytes a
-/// triangle: how its plane comes about, six coordinates, three depths. Bytes that are missing are 0.
+/// Two bytes of scene (the lattice that corners lie on, how far apart near-coincident planes are), then ten
+/// bytes a triangle: how its plane comes about, six coordinates, three depths. Bytes that are missing are 0.
 ScreenScene sceneFromBytes(std::span<const std::uint8_t> bytes);
 
 }  // namespace edgewise::fuzz

@@ -14,7 +14,9 @@
 namespace edgewise::witness {
 namespace {
 
-Real local(double grid, double rest, double sample) { return Real(Quad(grid) - sample + rest); }
+Real local(double grid, double rest, double sample) {
+    return Real(Quad(grid) - sample + rest);
+}
 
 /// How many times each owner is in front, counted from the labels alone: one owner once, all others never.
 class Front {
@@ -35,10 +37,13 @@ class Front {
 };
 
 /// Both sides compute u = u_0 + slope v with about eight roundings of terms up to (1 + |slope|) reach.
-Real roundingOf(Real reach, Real slope) { return 8 * reach * (1 + std::fabs(slope)) * 0x1p-64L; }
+Real roundingOf(Real reach, Real slope) {
+    return 8 * reach * (1 + std::fabs(slope)) * 0x1p-64L;
+}
 
-/// The owner that is left of all crossings. Crossings closer than rounding may stand in any order: of a cluster's labels
-/// it is the one that is left more often than entered; a cluster that changes nothing leaves the question to the next.
+/// The owner that is left of all crossings. Crossings closer than rounding may stand in any order: of a
+/// cluster's labels it is the one that is left more often than entered; a cluster that changes nothing leaves
+/// the question to the next.
 Owner leftmost(const std::vector<MapCrossing>& crossings, Real radius, Owner otherwise) {
     std::map<Owner, int> net;
     Real end = crossings.front().u;
@@ -132,9 +137,11 @@ void MapScan::compare(const LocalScene& scene, Real v, Real height, Real radius,
         verdict.widest_px = std::max(verdict.widest_px, length);
         verdict.wrong_px2 += length * height;
         if (verdict.first.empty())
-            verdict.first = fmt::format("along {}: v = {:.20g} (band {:.2g} px), u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in truth, {} on the map",
-                                        exchanged_ ? "y" : "x", double(v), double(height), double(cuts[k]), double(cuts[k + 1]), double(length), truth,
-                                        front.single() ? fmt::format("{}", front.owner()) : "no single one");
+            verdict.first = fmt::format(
+                "along {}: v = {:.20g} (band {:.2g} px), u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in "
+                "truth, {} on the map",
+                exchanged_ ? "y" : "x", double(v), double(height), double(cuts[k]), double(cuts[k + 1]),
+                double(length), truth, front.single() ? fmt::format("{}", front.owner()) : "no single one");
     }
 }
 
@@ -152,9 +159,11 @@ ScanVerdict compareMap(const ScreenScene& scene, const VisibleMap& map, glm::dve
         const std::vector<Real> events = eventOrdinates(truth, square);
         for (std::size_t k = 0; k + 1 < events.size(); ++k)
             if (events[k + 1] - events[k] > 0x1p-50L)  // two names of one event
-                scan.compare(truth, (events[k] + events[k + 1]) / 2, events[k + 1] - events[k], radius, verdict);
+                scan.compare(truth, (events[k] + events[k + 1]) / 2, events[k + 1] - events[k], radius,
+                             verdict);
         for (int k = 0; k < random_lines; ++k)
-            scan.compare(truth, dice.uniform(-double(radius), double(radius)), 2 * radius / random_lines, radius, verdict);
+            scan.compare(truth, dice.uniform(-double(radius), double(radius)), 2 * radius / random_lines,
+                         radius, verdict);
     }
     return verdict;
 }
