@@ -1,1 +1,0 @@
-#include "analytic/pixel_weights.h"
