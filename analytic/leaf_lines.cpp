@@ -59,8 +59,23 @@ bool separates(const ScreenTriangle& s, const ScreenTriangle& t) {
     return false;
 }
 
-bool shareEndpoint(const Carrier& p, const Carrier& q) {
-    return p.isEdge() && q.isEdge() && (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b);
+/// Lines that meet in a vertex by construction cross nowhere else.
+bool meetInVertex(const LeafLine& p, const LeafLine& q) {
+    const Carrier &c = p.carrier, &d = q.carrier;
+    if (c.isEdge() && d.isEdge()) return c.a == d.a || c.a == d.b || c.b == d.a || c.b == d.b;
+    if (c.isEdge()) return q.passesThrough(c.a) || q.passesThrough(c.b);
+    if (d.isEdge()) return p.passesThrough(d.a) || p.passesThrough(d.b);
+    return std::any_of(p.through.begin(), p.through.begin() + p.through_count,
+                       [&](glm::dvec2 v) { return q.passesThrough(v); });
+}
+
+/// The vertices that two triangles share lie on the line where their planes are equal.
+void noteSharedVertices(const ScreenTriangle& s, const ScreenTriangle& t, LeafLine& line) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool shared = std::find(t.vertex.begin(), t.vertex.end(), s.vertex[k]) != t.vertex.end();
+        if (shared && !line.passesThrough(s.p_px[k]) && line.through_count < line.through.size())
+            line.through[line.through_count++] = s.p_px[k];
+    }
 }
 
 }  // namespace
@@ -131,8 +146,8 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
     line.carrier = depthCarrier(scene, LineRef::depth(p.plane, q.plane));
     const Carrier& c = line.carrier;
     if (c.A.hi == 0.0 && c.B.hi == 0.0) return;
-    for (const LeafLine& known : lines)
-        if (known.carrier.ref == c.ref) return;
+    for (LeafLine& known : lines)
+        if (known.carrier.ref == c.ref) return noteSharedVertices(p, q, known);
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
@@ -143,6 +158,7 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
         return;
     }
     if (!clipDepthLine(frame, line)) return;
+    noteSharedVertices(p, q, line);
     lines.push_back(line);
     masks.resize(lines.size() * words, 0);
 }
@@ -153,11 +169,16 @@ void LeafLines::addCrossings() {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LeafLine& p = lines[i];
         if (!p.runsInside()) continue;
+        for (std::size_t k = 0; k < p.through_count; ++k) {
+            const OrderKey key = frame.key({p.through[k].y, 0.0});
+            const auto self = static_cast<std::uint32_t>(i);
+            if (key > p.in0 && key < p.in1) events.push_back({key, self, self, gridPoint(p.through[k])});
+        }
         for (std::size_t j = i + 1; j < lines.size(); ++j) {
             const LeafLine& q = lines[j];
             if (!q.runsInside() || p.in1 < q.in0 || q.in1 < p.in0) continue;
             if (p.x_high + kPad < q.x_low || q.x_high + kPad < p.x_low) continue;
-            if (shareEndpoint(p.carrier, q.carrier)) continue;
+            if (meetInVertex(p, q)) continue;
             FinePoint point;
             if (!crossing(p.carrier, q.carrier, point)) continue;
             const OrderKey key = frame.key(yOf(point));

@@ -67,7 +67,9 @@ struct SlabSweep::State {
     void closePiece(std::uint32_t line, const FinePoint& end);
     void toggle(std::uint32_t line);
     Owner nearest(double x, double y);
+    int compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const;
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
+    FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
     void addBreaks(const Profile& profile, int side, std::size_t slab);
     void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
@@ -132,9 +134,29 @@ void SlabSweep::State::locate(std::size_t slab) {
     for (std::size_t i = 1; i < order.size(); ++i) {  // nearly sorted: the slab above was
         const std::uint32_t line = order[i];
         std::size_t j = i;
-        for (; j > 0 && tracks[order[j - 1]].x_mid > tracks[line].x_mid; --j) order[j] = order[j - 1];
+        for (; j > 0 && compare(order[j - 1], line, slab) > 0; --j) order[j] = order[j - 1];
         order[j] = line;
     }
+}
+
+/// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else the
+/// canonical points, which know nothing of the cell.
+int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const {
+    // x_mid carries 5 roundings of at most 2^-49 px: points lie within two cells of the origin.
+    constexpr double kUnsure = 2 * 5 * 0x1p-49;
+    // Double-double points of lines up to 2^21 px long are good to 2^-80 px.
+    constexpr double kSame = 0x1p-78;
+    const double d = tracks[p].x_mid - tracks[q].x_mid;
+    if (std::abs(d) > kUnsure) return d > 0.0 ? 1 : -1;
+    const FineCoordinate p0 = xOf(topPoint(p, slab)), q0 = xOf(topPoint(q, slab));
+    const FineCoordinate p1 = xOf(bottomPoint(p, slab)), q1 = xOf(bottomPoint(q, slab));
+    const double fine = ((p0.grid - q0.grid) + (p1.grid - q1.grid)) + ((p0.rest - q0.rest) + (p1.rest - q1.rest));
+    return std::abs(fine) <= kSame ? 0 : fine > 0.0 ? 1 : -1;
+}
+
+FinePoint SlabSweep::State::bottomPoint(std::uint32_t line, std::size_t slab) const {
+    if (tracks[line].bottom_known) return tracks[line].bottom;
+    return pointAtY(leaf.lines[line].carrier, leaf.ordinates[slab + 1]);
 }
 
 void SlabSweep::State::toggle(std::uint32_t line) {
@@ -173,7 +195,7 @@ void SlabSweep::State::sweep(std::size_t slab) {
     for (std::size_t i = 0; i < order.size();) {
         std::uint32_t chosen = order[i];
         x = tracks[order[i]].x_mid;
-        for (; i < order.size() && tracks[order[i]].x_mid == x; ++i) {
+        for (const std::uint32_t first = order[i]; i < order.size() && compare(order[i], first, slab) == 0; ++i) {
             toggle(order[i]);
             const Carrier &c = leaf.lines[order[i]].carrier, &best = leaf.lines[chosen].carrier;
             if (c.isEdge() != best.isEdge() ? c.isEdge() : c.ref < best.ref) chosen = order[i];
