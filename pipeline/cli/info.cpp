@@ -7,7 +7,9 @@
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/picture_options.h"
+#include "pipeline/plan.h"
 #include "pipeline/progress_bar.h"
+#include "pipeline/project.h"
 #include "pipeline/shade.h"
 
 namespace edgewise::cli {
@@ -88,6 +90,17 @@ Json ignoredJson(const Scene& scene) {
     return list;
 }
 
+/// What nsaa would do by default.
+Json planJson(const Picture& picture) {
+    ScreenPieces pieces;
+    const ScreenScene screen = project(picture.scene, picture.camera, picture.film, pieces);
+    const Shading shading(picture.scene, picture.camera, picture.film, screen, pieces);
+    Json list = Json::array();
+    for (const PlanEntry& entry : makePlan(picture.scene, screen, pieces, shading, RenderOptions{}).entries)
+        list.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
+    return list;
+}
+
 Json infoJson(const Picture& picture) {
     const Scene& scene = picture.scene;
     return {{"scene", scene.source},
@@ -96,7 +109,8 @@ Json infoJson(const Picture& picture) {
             {"cameras", camerasJson(scene)},
             {"camera", resolvedCameraJson(picture)},
             {"lights", lightsJson()},
-            {"ignored", ignoredJson(scene)}};
+            {"ignored", ignoredJson(scene)},
+            {"plan", planJson(picture)}};
 }
 
 /// "name value" a line; lists of objects one object a line.
@@ -127,7 +141,7 @@ void info(const InfoArguments& arguments) {
 
 void addInfo(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("info", "what is in a scene, its resolved camera and lights, what is ignored");
+        program.add_subcommand("info", "what is in a scene, its resolved camera and lights, what is ignored, the plan");
     auto arguments = std::make_shared<InfoArguments>();
     addPictureOptions(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");

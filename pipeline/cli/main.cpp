@@ -28,6 +28,7 @@ void parseAndRun(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(kFooter);
     addRender(program, command_line);
+    addWeights(program);
     addInfo(program);
     addMethods(program);
     addFilters(program);

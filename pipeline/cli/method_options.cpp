@@ -70,8 +70,6 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
                     fmt::format("forces what the plan leaves out: {}; repeatable", fmt::join(noSkipNames(), ", ")))
         ->type_name("NAME")
         ->allow_extra_args(false);
-    command.add_option("--dump-stages", arguments.dump_stages, "every intermediate as data and as a picture")
-        ->type_name("DIR");
 }
 
 RenderOptions readMethodOptions(const MethodArguments& arguments) {
@@ -91,17 +89,12 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
     if (arguments.seed)
         options.seed = static_cast<std::uint64_t>(
             parseInteger("--seed", *arguments.seed, 0, std::numeric_limits<std::int64_t>::max()));
-    if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
     return options;
 }
 
-void makeDumpFolder(const RenderOptions& options) {
-    if (!options.dump_dir) return;
-    std::error_code error;
-    std::filesystem::create_directories(*options.dump_dir, error);
-    if (!std::filesystem::is_directory(*options.dump_dir, error))
-        throw InputError("--dump-stages",
-                         fmt::format("{} is not a folder and cannot be made one", options.dump_dir->string()));
+ThreadLimit::ThreadLimit(const RenderOptions& options) {
+    if (options.threads > 0)
+        control_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
 }
 
 void checkDevice(const MethodArguments& arguments, const MethodSpec& method) {
