@@ -1,5 +1,5 @@
-// Exact sums: a number held as doubles that do not overlap, after Shewchuk (1997), "Adaptive Precision Floating-Point
-// Arithmetic and Fast Robust Geometric Predicates", GROW-EXPANSION with zero elimination.
+// Exact sums: a number held as doubles that do not overlap, after Shewchuk (1997), "Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", GROW-EXPANSION with zero elimination.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace edgewise {
 
-/// The exact sum of up to kCapacity doubles. Exact while nothing overflows and no partial product of addProduct()
-/// falls below 2^-960.
+/// The exact sum of up to kCapacity doubles. Exact while nothing overflows and no partial product of
+/// addProduct() falls below 2^-960.
 template <std::size_t kCapacity>
 class Expansion {
   public:

@@ -49,8 +49,8 @@ std::uint8_t ClipVolume::outcode(const glm::dvec3& p_eye) const {
     return static_cast<std::uint8_t>(code);
 }
 
-/// Formed in double-double from the lexicographically smaller endpoint and rounded once: a far endpoint costs a near
-/// crossing no digits.
+/// Formed in double-double from the lexicographically smaller endpoint and rounded once: a far endpoint costs
+/// a near crossing no digits.
 glm::dvec3 ClipVolume::crossing(int plane, const glm::dvec3& p, const glm::dvec3& q) const {
     using namespace f64;
     const bool ordered = std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);

@@ -10,7 +10,8 @@
 
 namespace edgewise {
 
-/// The polygon of a clipped triangle: at most nine corners, and room for rounded ones that are not quite convex.
+/// The polygon of a clipped triangle: at most nine corners, and room for rounded ones that are not quite
+/// convex.
 struct ClipPolygon {
     static constexpr int kCapacity = 32;
     std::array<glm::dvec3, kCapacity> p_eye;
@@ -33,8 +34,9 @@ class ClipVolume {
 
     std::uint8_t outcode(const glm::dvec3& p_eye) const;
 
-    /// Clips against the planes in `codes`. A new corner depends on its edge's two endpoints alone, not on their order:
-    /// neighbours get the same bits and no crack opens. Fewer than three corners: nothing is left.
+    /// Clips against the planes in `codes`. A new corner depends on its edge's two endpoints alone, not on
+    /// their order: neighbours get the same bits and no crack opens. Fewer than three corners: nothing is
+    /// left.
     void clip(ClipPolygon& polygon, std::uint8_t codes) const;
 
   private:

@@ -40,7 +40,8 @@ int normalSign(const Corners& p, int axis) {
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     double sum = 0.0, size = 0.0;
     for (int k = 0; k < 3; ++k) {
-        const double forward = double(p[k][i]) * p[(k + 1) % 3][j], back = double(p[k][j]) * p[(k + 1) % 3][i];
+        const double forward = double(p[k][i]) * p[(k + 1) % 3][j],
+                     back = double(p[k][j]) * p[(k + 1) % 3][i];
         sum += forward - back;
         size += std::fabs(forward) + std::fabs(back);
     }
@@ -92,37 +93,44 @@ struct Candidate {
     auto order() const { return std::tie(node, key, index); }
 };
 
-Candidate makeCandidate(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle) {
+/// Candidates of triangles [begin, end) of a geometry.
+void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begin, std::size_t end,
+                    Candidate* out) {
     const Geometry& g = scene.geometry[geometry];
-    const Corners p = fileCorners(g, triangle);
-    Candidate candidate{0, g.node, g.first_triangle + triangle, kNone, triangle};
-    if (!hasArea(p)) return candidate;
-    candidate.geometry = geometry;
-    candidate.key = planeKey(p[0], p[1], p[2]).value_or(0);
-    return candidate;
+    std::vector<Corners> corners;
+    for (std::size_t t = begin; t < end; ++t)
+        corners.push_back(fileCorners(g, static_cast<std::uint32_t>(t)));
+    const auto keys = planeKeys(corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto triangle = static_cast<std::uint32_t>(begin + i);
+        const std::uint32_t place = hasArea(corners[i]) ? geometry : kNone;
+        out[i] = {keys[i].value_or(0), g.node, g.first_triangle + triangle, place, triangle};
+    }
 }
 
 std::vector<Candidate> sortedCandidates(const Scene& scene) {
     std::vector<Candidate> all(scene.triangle_count);
     for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
         const Geometry& geometry = scene.geometry[g];
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
-            for (std::size_t t = range.begin(); t < range.end(); ++t)
-                all[geometry.first_triangle + t] = makeCandidate(scene, g, static_cast<std::uint32_t>(t));
-        });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024),
+                          [&](const auto& range) {
+                              makeCandidates(scene, g, range.begin(), range.end(),
+                                             all.data() + geometry.first_triangle + range.begin());
+                          });
     }
     std::erase_if(all, [](const Candidate& c) { return c.geometry == kNone; });
     tbb::parallel_sort(all, [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
     return all;
 }
 
-/// For each candidate of a run of equal keys the first triangle of its plane. One plane a run, unless keys collide.
+/// For each candidate of a run of equal keys the first triangle of its plane. One plane a run, unless keys
+/// collide.
 void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<std::uint32_t>& leader_of) {
     std::vector<std::pair<ExactPlane, std::uint32_t>> planes;
     for (const Candidate& candidate : run) {
         const Corners p = fileCorners(scene.geometry[candidate.geometry], candidate.triangle);
-        const auto found =
-            std::find_if(planes.begin(), planes.end(), [&](const auto& plane) { return plane.first.contains(p); });
+        const auto found = std::find_if(planes.begin(), planes.end(),
+                                        [&](const auto& plane) { return plane.first.contains(p); });
         if (found != planes.end()) {
             leader_of[candidate.index] = found->second;
         } else {
@@ -184,15 +192,18 @@ void formNormals(const Scene& scene, CoplanarGroups& groups, std::vector<int>& a
 
 void findReversed(const Scene& scene, const std::vector<int>& axis, CoplanarGroups& groups) {
     for (const Geometry& geometry : scene.geometry) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
-            for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                const std::size_t index = geometry.first_triangle + t;
-                const std::uint32_t plane = groups.plane_of[index];
-                if (plane == kNone) continue;
-                const int sign = normalSign(fileCorners(geometry, static_cast<std::uint32_t>(t)), axis[plane]);
-                groups.reversed[index] = (sign > 0) != (groups.planes[plane].normal[axis[plane]].hi > 0.0);
-            }
-        });
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
+                for (std::size_t t = range.begin(); t < range.end(); ++t) {
+                    const std::size_t index = geometry.first_triangle + t;
+                    const std::uint32_t plane = groups.plane_of[index];
+                    if (plane == kNone) continue;
+                    const int sign =
+                        normalSign(fileCorners(geometry, static_cast<std::uint32_t>(t)), axis[plane]);
+                    groups.reversed[index] =
+                        (sign > 0) != (groups.planes[plane].normal[axis[plane]].hi > 0.0);
+                }
+            });
     }
 }
 

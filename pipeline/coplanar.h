@@ -1,5 +1,5 @@
-// Triangles of one node that are exactly coplanar in the file: they share one depth plane, so that duplicates and
-// decals resolve by index and not by rounding.
+// Triangles of one node that are exactly coplanar in the file: they share one depth plane, so that duplicates
+// and decals resolve by index and not by rounding.
 #pragma once
 
 #include <array>
@@ -13,8 +13,9 @@ namespace edgewise {
 
 /// The plane through a triangle of the file, as it was written there.
 struct FilePlane {
-    std::array<f64::dd, 3> normal;  ///< cross(b - a, c - a), relative error <= 2^-104 a component, slivers too
-    std::uint32_t geometry = 0;     ///< of the representative: the widest triangle, the first of equals
+    std::array<f64::dd, 3>
+        normal;                  ///< cross(b - a, c - a), relative error <= 2^-104 a component, slivers too
+    std::uint32_t geometry = 0;  ///< of the representative: the widest triangle, the first of equals
     std::uint32_t triangle = 0;
 };
 

@@ -13,7 +13,9 @@ using f64::dd;
 using DdVector = std::array<dd, 3>;
 using DdMatrix = std::array<DdVector, 3>;  // rows
 
-DdVector widen(const glm::dvec3& v) { return {f64::ddFrom(v.x), f64::ddFrom(v.y), f64::ddFrom(v.z)}; }
+DdVector widen(const glm::dvec3& v) {
+    return {f64::ddFrom(v.x), f64::ddFrom(v.y), f64::ddFrom(v.z)};
+}
 
 dd dot(const DdVector& a, const DdVector& b) {
     return f64::ddAdd(f64::ddAdd(f64::ddMul(a[0], b[0]), f64::ddMul(a[1], b[1])), f64::ddMul(a[2], b[2]));
@@ -28,7 +30,9 @@ DdVector difference(const DdVector& a, const DdVector& b) {
     return {f64::ddSub(a[0], b[0]), f64::ddSub(a[1], b[1]), f64::ddSub(a[2], b[2])};
 }
 
-DdVector multiply(const DdMatrix& m, const DdVector& v) { return {dot(m[0], v), dot(m[1], v), dot(m[2], v)}; }
+DdVector multiply(const DdMatrix& m, const DdVector& v) {
+    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
 
 DdMatrix linearPart(const glm::dmat4& m) {
     DdMatrix rows;
@@ -37,7 +41,9 @@ DdMatrix linearPart(const glm::dmat4& m) {
 }
 
 /// cof(M) (a x b) = (M a) x (M b), also where M is singular or mirrors.
-DdMatrix cofactor(const DdMatrix& m) { return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])}; }
+DdMatrix cofactor(const DdMatrix& m) {
+    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+}
 
 DdVector transform(const glm::dmat4& m, const DdVector& p) {
     DdVector moved = multiply(linearPart(m), p);

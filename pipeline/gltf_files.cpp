@@ -86,25 +86,36 @@ void takeViewsBack(const nlohmann::json& root, tinygltf::Model& model) {
         if (!root["accessors"][i].contains("bufferView")) model.accessors[i].bufferView = -1;
 }
 
+/// tinygltf reads "+" as a space.
+std::string withoutPlus(const std::string& uri) {
+    std::string text;
+    for (const char c : uri) text += c == '+' ? "%2B" : std::string(1, c);
+    return text;
+}
+
 /// tinygltf knows few media types and wants byteLength to be the file's size; the specification does not.
 /// checkGltf has found at least byteLength bytes, so the true size may take its place.
+void rewriteUri(nlohmann::json& element, const GltfDocument& document) {
+    const std::string uri = element["uri"];
+    const bool is_buffer = element.contains("byteLength");
+    if (isDataUri(uri)) {
+        const Base64Data data = base64Payload(uri, document.source);
+        if (is_buffer) element["byteLength"] = data.decoded_bytes;
+        element["uri"] = fmt::format("data:application/octet-stream;base64,{}", data.payload);
+        return;
+    }
+    if (is_buffer)
+        element["byteLength"] = std::filesystem::file_size(jailedPath(document.folder, uri, document.source));
+    element["uri"] = withoutPlus(uri);
+}
+
 nlohmann::json forTinygltf(const GltfDocument& document) {
     nlohmann::json root = document.root;
     for (const char* section : {"animations", "skins", "extras"}) root.erase(section);
     for (const char* section : {"buffers", "images"}) {
         if (!root.contains(section)) continue;
-        for (auto& element : root[section]) {
-            if (!element.contains("uri")) continue;
-            const std::string uri = element["uri"];
-            if (isDataUri(uri)) {
-                const Base64Data data = base64Payload(uri, document.source);
-                element["byteLength"] = data.decoded_bytes;
-                element["uri"] = fmt::format("data:application/octet-stream;base64,{}", data.payload);
-            } else if (std::strcmp(section, "buffers") == 0) {
-                element["byteLength"] =
-                    std::filesystem::file_size(jailedPath(document.folder, uri, document.source));
-            }
-        }
+        for (auto& element : root[section])
+            if (element.contains("uri")) rewriteUri(element, document);
     }
     lendViews(root);
     return root;

@@ -7,8 +7,9 @@
 
 namespace edgewise {
 
-/// The sign of cross(b - a, c - a): the differences are exact in double, two products of 53 bits and their difference
-/// fit 128 bits; a filter answers nearly always (two products and a difference, each off by at most u = 2^-53).
+/// The sign of cross(b - a, c - a): the differences are exact in double, two products of 53 bits and their
+/// difference fit 128 bits; a filter answers nearly always (two products and a difference, each off by at
+/// most u = 2^-53).
 inline int gridOrientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const glm::dvec2 u = b - a, v = c - a;
     const double left = u.x * v.y, right = u.y * v.x, cross = left - right;

@@ -9,12 +9,13 @@
 
 namespace edgewise {
 
-/// Pixels in rows from the top. The colour holds the background already; alpha is the sum of the other owners' weights,
-/// which may be negative with negative lobes.
+/// Pixels in rows from the top. The colour holds the background already; alpha is the sum of the other
+/// owners' weights, which may be negative with negative lobes.
 struct ImageBuffer {
     PixelBox box;
     std::vector<glm::dvec4> rgba;
-    std::vector<float> edge;  ///< 1 where the filter's support holds visible owners that differ by more than 1/255
+    std::vector<float>
+        edge;  ///< 1 where the filter's support holds visible owners that differ by more than 1/255
 
     ImageBuffer() = default;
     explicit ImageBuffer(const PixelBox& pixels)

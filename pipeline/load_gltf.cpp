@@ -70,6 +70,7 @@ class SceneReader {
             scene_.bounds_min = scene_.bounds_max = glm::dvec3(0.0);
         readMaterials(model_, used_materials_, scene_.source, scene_);
         fillMissingUv();
+        if (options_.progress) options_.progress(1.0);
     }
 
   private:

@@ -1,6 +1,5 @@
 #include "pipeline/plane_key.h"
 
-#include <array>
 #include <cmath>
 
 namespace edgewise {
@@ -15,7 +14,9 @@ std::uint64_t addMod(std::uint64_t a, std::uint64_t b) {
     return sum >= kPrime ? sum - kPrime : sum;
 }
 
-std::uint64_t subMod(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
+std::uint64_t subMod(std::uint64_t a, std::uint64_t b) {
+    return a >= b ? a - b : a + kPrime - b;
+}
 
 std::uint64_t mulMod(std::uint64_t a, std::uint64_t b) {
     __extension__ using Wide = unsigned __int128;
@@ -44,7 +45,9 @@ std::uint64_t residue(float value) {
 
 using Vector = std::array<std::uint64_t, 3>;
 
-Vector residues(const glm::vec3& p) { return {residue(p.x), residue(p.y), residue(p.z)}; }
+Vector residues(const glm::vec3& p) {
+    return {residue(p.x), residue(p.y), residue(p.z)};
+}
 
 Vector difference(const Vector& a, const Vector& b) {
     return {subMod(a[0], b[0]), subMod(a[1], b[1]), subMod(a[2], b[2])};
@@ -60,21 +63,48 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 29);
 }
 
+/// n . p = d, up to a common factor.
+struct Coefficients {
+    Vector n;
+    std::uint64_t d;
+
+    /// The first component of n that is not 0; 3: none.
+    int pivot() const { return n[0] != 0 ? 0 : (n[1] != 0 ? 1 : (n[2] != 0 ? 2 : 3)); }
+};
+
+Coefficients coefficients(const std::array<glm::vec3, 3>& triangle) {
+    const Vector a = residues(triangle[0]);
+    const Vector n = cross(difference(residues(triangle[1]), a), difference(residues(triangle[2]), a));
+    return {n, addMod(addMod(mulMod(n[0], a[0]), mulMod(n[1], a[1])), mulMod(n[2], a[2]))};
+}
+
+std::uint64_t keyOf(const Coefficients& plane, std::uint64_t inverse_pivot) {
+    std::uint64_t key = mix(0, static_cast<std::uint64_t>(plane.pivot()));
+    for (const std::uint64_t c : {plane.n[1], plane.n[2], plane.d}) key = mix(key, mulMod(c, inverse_pivot));
+    return key;
+}
+
 }  // namespace
 
-std::optional<std::uint64_t> planeKey(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const Vector pa = residues(a);
-    const Vector n = cross(difference(residues(b), pa), difference(residues(c), pa));
-    const std::uint64_t d =
-        addMod(addMod(mulMod(n[0], pa[0]), mulMod(n[1], pa[1])), mulMod(n[2], pa[2]));
-    for (std::uint64_t first = 0; first < 3; ++first) {
-        if (n[first] == 0) continue;
-        const std::uint64_t scale = inverse(n[first]);
-        std::uint64_t key = mix(0, first);
-        for (const std::uint64_t coefficient : {n[1], n[2], d}) key = mix(key, mulMod(coefficient, scale));
-        return key;
+/// One inversion for all (Montgomery): the inverse of the pivots' product, unwound from the back.
+std::vector<std::optional<std::uint64_t>> planeKeys(std::span<const std::array<glm::vec3, 3>> triangles) {
+    std::vector<Coefficients> planes;
+    std::vector<std::uint64_t> product_before;
+    std::uint64_t product = 1;
+    for (const auto& triangle : triangles) {
+        planes.push_back(coefficients(triangle));
+        product_before.push_back(product);
+        if (planes.back().pivot() < 3) product = mulMod(product, planes.back().n[planes.back().pivot()]);
     }
-    return std::nullopt;
+    std::vector<std::optional<std::uint64_t>> keys(triangles.size());
+    std::uint64_t rest = inverse(product);
+    for (std::size_t i = triangles.size(); i-- > 0;) {
+        const int pivot = planes[i].pivot();
+        if (pivot == 3) continue;
+        keys[i] = keyOf(planes[i], mulMod(rest, product_before[i]));
+        rest = mulMod(rest, planes[i].n[pivot]);
+    }
+    return keys;
 }
 
 }  // namespace edgewise

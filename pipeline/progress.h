@@ -6,7 +6,8 @@
 
 namespace edgewise {
 
-/// The default says nothing and is never cancelled. advance() and cancelled() are called from many threads at once.
+/// The default says nothing and is never cancelled. advance() and cancelled() are called from many threads at
+/// once.
 struct Progress {
     virtual ~Progress() = default;
     virtual void stage(std::string_view /*name*/, std::size_t /*total*/) {}

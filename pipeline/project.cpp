@@ -21,7 +21,7 @@ void parallelFor(std::size_t count, const Body& body) {
 /// The scene's distinct vertices, in eye space and on the screen.
 struct EyeVertices {
     PointTable table;
-    std::vector<std::size_t> first;     ///< by geometry, into ids
+    std::vector<std::size_t> first;  ///< by geometry, into ids
     std::vector<std::uint32_t> ids;
     std::vector<std::uint8_t> outcode;  ///< by id
     std::vector<glm::dvec2> p_px;       ///< by id; where the outcode is 0
@@ -56,7 +56,8 @@ void placeVertices(const ClipVolume& volume, const ScreenMap& map, EyeVertices& 
 /// What a run of triangles contributes; runs are joined in order.
 struct Run {
     std::vector<ScreenTriangle> pieces;
-    /// Corners that clipping made, in eye space; a piece refers to number i as kFirstMade + i until the runs are joined.
+    /// Corners that clipping made, in eye space; a piece refers to number i as kFirstMade + i until the runs
+    /// are joined.
     std::vector<glm::dvec3> made;
     ProjectionCounts counts;
 };
@@ -80,7 +81,8 @@ class Projector {
         makeDepth(screen, pieces);
         pieces.back_facing.assign(scene_.triangle_count, 0);
         std::vector<Run> runs((scene_.triangle_count + kRunLength - 1) / kRunLength);
-        tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) { projectRun(i, runs[i], pieces); });
+        tbb::parallel_for(std::size_t(0), runs.size(),
+                          [&](std::size_t i) { projectRun(i, runs[i], pieces); });
         join(runs, screen, pieces);
         return screen;
     }
@@ -116,14 +118,16 @@ class Projector {
         ++run.counts.triangles;
         if (plane == kNone || edge_on_[plane]) return void(++run.counts.no_area);
         back_facing = (planes_[plane].facing(map_.perspective) < 0.0) != (groups_.reversed[owner] != 0);
-        if (back_facing && !scene_.materials[geometry.material].double_sided) return void(++run.counts.culled);
+        if (back_facing && !scene_.materials[geometry.material].double_sided)
+            return void(++run.counts.culled);
         std::array<std::uint32_t, 3> id;
         for (int k = 0; k < 3; ++k)
             id[k] = vertices_.ids[vertices_.first[at.geometry] + geometry.triangles[at.triangle][k]];
         emitTriangle(id, owner, plane, run);
     }
 
-    void emitTriangle(const std::array<std::uint32_t, 3>& id, Owner owner, std::uint32_t plane, Run& run) const {
+    void emitTriangle(const std::array<std::uint32_t, 3>& id, Owner owner, std::uint32_t plane,
+                      Run& run) const {
         const auto& code = vertices_.outcode;
         const auto& px = vertices_.p_px;
         const std::uint8_t all = code[id[0]] & code[id[1]] & code[id[2]];
@@ -140,8 +144,8 @@ class Projector {
     }
 
     /// False if nothing is left of the triangle.
-    bool emitClipped(const std::array<std::uint32_t, 3>& id, std::uint8_t codes, Owner owner, std::uint32_t plane,
-                     Run& run) const {
+    bool emitClipped(const std::array<std::uint32_t, 3>& id, std::uint8_t codes, Owner owner,
+                     std::uint32_t plane, Run& run) const {
         ClipPolygon polygon;
         for (const std::uint32_t i : id) polygon.push(vertices_.table.points()[i], i);
         volume_.clip(polygon, codes);
@@ -155,7 +159,10 @@ class Projector {
         }
         for (int i = 2; i < polygon.size; ++i)
             emitPiece({{px[0], px[i - 1], px[i]},
-                       {polygon.vertex[0], polygon.vertex[i - 1], polygon.vertex[i]}, owner, plane}, run);
+                       {polygon.vertex[0], polygon.vertex[i - 1], polygon.vertex[i]},
+                       owner,
+                       plane},
+                      run);
         return true;
     }
 
@@ -214,7 +221,8 @@ class Projector {
 
 }  // namespace
 
-ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film, ScreenPieces& pieces) {
+ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film,
+                    ScreenPieces& pieces) {
     pieces = {};
     return Projector(scene, camera, film).run(pieces);
 }

@@ -17,22 +17,23 @@ namespace edgewise {
 /// Where the scene's triangles went; every triangle is counted once.
 struct ProjectionCounts {
     std::size_t triangles = 0;
-    std::size_t no_area = 0;    ///< degenerate in the file, or its whole plane seen edge-on
-    std::size_t culled = 0;     ///< back faces of single-sided materials
-    std::size_t outside = 0;    ///< behind the near plane, beyond the far plane or the guard band
-    std::size_t vanished = 0;   ///< no area left on the grid of 2^-32 px
-    std::size_t visible = 0;    ///< has pieces
-    std::size_t clipped = 0;    ///< of the visible ones: cut by a plane
+    std::size_t no_area = 0;   ///< degenerate in the file, or its whole plane seen edge-on
+    std::size_t culled = 0;    ///< back faces of single-sided materials
+    std::size_t outside = 0;   ///< behind the near plane, beyond the far plane or the guard band
+    std::size_t vanished = 0;  ///< no area left on the grid of 2^-32 px
+    std::size_t visible = 0;   ///< has pieces
+    std::size_t clipped = 0;   ///< of the visible ones: cut by a plane
     std::size_t pieces = 0;
-    std::size_t planes = 0;     ///< distinct planes of the file
+    std::size_t planes = 0;  ///< distinct planes of the file
 };
 
 /// What later stages need beside the screen triangles.
 struct ScreenPieces {
     /// The pieces of owner i are ScreenScene::triangles[first[i]] .. [first[i + 1]].
     std::vector<std::uint32_t> first;
-    std::vector<std::uint8_t> back_facing;      ///< by owner: the back is seen
-    std::vector<glm::dvec3> plane_normal_eye;   ///< by plane: unit, towards the viewer; bit-equal for coplanar triangles
+    std::vector<std::uint8_t> back_facing;  ///< by owner: the back is seen
+    std::vector<glm::dvec3>
+        plane_normal_eye;  ///< by plane: unit, towards the viewer; bit-equal for coplanar triangles
     ProjectionCounts counts;
 
     std::span<const ScreenTriangle> of(Owner owner, const ScreenScene& scene) const {
@@ -46,8 +47,9 @@ ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film
 
 /// The triangle behind a contract index below Scene::triangle_count.
 inline TriangleRef findTriangle(const Scene& scene, std::uint32_t index) {
-    const auto after = std::upper_bound(scene.geometry.begin(), scene.geometry.end(), index,
-                                        [](std::uint32_t i, const Geometry& g) { return i < g.first_triangle; });
+    const auto after =
+        std::upper_bound(scene.geometry.begin(), scene.geometry.end(), index,
+                         [](std::uint32_t i, const Geometry& g) { return i < g.first_triangle; });
     const auto geometry = static_cast<std::uint32_t>(after - scene.geometry.begin() - 1);
     return {geometry, index - scene.geometry[geometry].first_triangle};
 }

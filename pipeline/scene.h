@@ -41,7 +41,8 @@ struct Material {
 
 /// Vertex attributes of one primitive of one node, already in world space. Absent attributes are empty.
 struct Geometry {
-    std::vector<glm::vec3> position_file;    ///< as in the file, before the node's transform
+    /// As stored in the file, before the node's transform and before a normalized integer's division: exact.
+    std::vector<glm::vec3> position_file;
     std::vector<glm::dvec3> position_world;
     std::vector<glm::dvec3> normal_world;    ///< not normalised; empty: flat normals
     /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken through it
@@ -76,8 +77,8 @@ struct Ignored {
 struct Scene {
     std::string source;  ///< file or name, as the user gave it
     std::vector<Geometry> geometry;  ///< in index order: depth-first nodes, their mesh's primitives
-    std::vector<Material> materials;
-    std::vector<Texture> textures;
+    std::vector<Material> materials;  ///< the file's, in order, then the default one
+    std::vector<Texture> textures;  ///< those that drawn materials use; never without an image
     std::vector<Image> images;
     std::vector<Camera> cameras;  ///< camera nodes in depth-first order
     std::vector<std::string> node_names, mesh_names;

@@ -10,9 +10,12 @@ namespace edgewise {
 namespace {
 
 /// Only rounding, or a debug offset of thousands of pixels, ever gets here: clip() stays inside the band.
-double clampToBand(double x_px) { return std::clamp(x_px, -kGuardBandPx, kGuardBandPx); }
+double clampToBand(double x_px) {
+    return std::clamp(x_px, -kGuardBandPx, kGuardBandPx);
+}
 
-/// In x87 arithmetic: the library's double functions have variants by instruction set that differ in the last bit.
+/// In x87 arithmetic: the library's double functions have variants by instruction set that differ in the last
+/// bit.
 double pixelsPerUnit(const Camera& camera, int height) {
     if (!camera.perspective) return 0.5 * height / camera.ymag;
     return static_cast<double>(0.5L * height / std::tan(0.5L * static_cast<long double>(camera.yfov)));
@@ -20,7 +23,9 @@ double pixelsPerUnit(const Camera& camera, int height) {
 
 }  // namespace
 
-double roundToGrid(double x_px) { return std::nearbyint(x_px * 0x1p32) * kGridPx; }
+double roundToGrid(double x_px) {
+    return std::nearbyint(x_px * 0x1p32) * kGridPx;
+}
 
 glm::dvec2 ScreenMap::toScreen(const glm::dvec3& p_eye) const {
     const double by_w = w(p_eye);

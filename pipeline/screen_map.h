@@ -7,22 +7,23 @@
 
 namespace edgewise {
 
-/// x_px = principal.x + scale x / w, y_px = principal.y - scale y / w, with w = -z for perspective, 1 for orthographic.
-/// The principal point is held as a whole pixel and a fraction in [0, 1), so that moving the film by whole pixels moves
-/// every rounded position by exactly that.
+/// x_px = principal.x + scale x / w, y_px = principal.y - scale y / w, with w = -z for perspective, 1 for
+/// orthographic. The principal point is held as a whole pixel and a fraction in [0, 1), so that moving the
+/// film by whole pixels moves every rounded position by exactly that.
 struct ScreenMap {
     bool perspective = true;
-    double scale_px = 1.0;       ///< (H / 2) / tan(yfov / 2), or (H / 2) / ymag
-    glm::dvec2 whole_px{0.0};    ///< of the principal point
+    double scale_px = 1.0;     ///< (H / 2) / tan(yfov / 2), or (H / 2) / ymag
+    glm::dvec2 whole_px{0.0};  ///< of the principal point
     glm::dvec2 fraction_px{0.0};
-    glm::dvec2 offset_px{0.0};   ///< Film::debug_offset_px: added to positions after rounding
+    glm::dvec2 offset_px{0.0};  ///< Film::debug_offset_px: added to positions after rounding
 
     double w(const glm::dvec3& p_eye) const { return perspective ? -p_eye.z : 1.0; }
 
     /// On the grid of 2^-32 px, rounded half to even and clamped to the guard band; w > 0.
     glm::dvec2 toScreen(const glm::dvec3& p_eye) const;
 
-    /// The ray through a pixel position: perspective (u, v, -1) through the eye; orthographic (u, v) is the point itself.
+    /// The ray through a pixel position: perspective (u, v, -1) through the eye; orthographic (u, v) is the
+    /// point itself.
     glm::dvec2 toImagePlane(glm::dvec2 p_px) const;
 
     /// The principal point on the grid, where depth planes are anchored.

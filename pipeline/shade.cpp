@@ -23,7 +23,9 @@ struct Shading::Location {
 
 namespace {
 
-double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+double cross2(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Nearest point of the segment a, b to s.
 glm::dvec2 nearestOnSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
@@ -46,7 +48,8 @@ glm::dvec3 clampToTriangle(const glm::dvec3& barycentric) {
 }
 
 template <class Vector>
-auto interpolate(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex, const glm::dvec3& w) {
+auto interpolate(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex,
+                 const glm::dvec3& w) {
     return values[vertex[0]] * w.x + values[vertex[1]] * w.y + values[vertex[2]] * w.z;
 }
 
@@ -71,8 +74,8 @@ double rigLight(const glm::dvec3& normal_eye) {
     return light;
 }
 
-Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
-                 const ScreenPieces& pieces)
+Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film,
+                 const ScreenScene& screen, const ScreenPieces& pieces)
     : scene_(scene),
       camera_from_world_(camera.camera_from_world),
       map_(makeScreenMap(camera, film)),
@@ -81,11 +84,13 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
       pyramids_(scene.images.size()) {
     std::vector<std::uint32_t> used;
     for (const Material& material : scene.materials)
-        if (material.base_color_texture != kNone) used.push_back(scene.textures[material.base_color_texture].image);
+        if (material.base_color_texture != kNone)
+            used.push_back(scene.textures[material.base_color_texture].image);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::erase(used, kNone);
-    tbb::parallel_for(std::size_t(0), used.size(), [&](std::size_t i) { pyramids_[used[i]].emplace(scene.images[used[i]]); });
+    tbb::parallel_for(std::size_t(0), used.size(),
+                      [&](std::size_t i) { pyramids_[used[i]].emplace(scene.images[used[i]]); });
 }
 
 Shading::Surface Shading::surfaceOf(Owner owner) const {
@@ -95,15 +100,17 @@ Shading::Surface Shading::surfaceOf(Owner owner) const {
             pieces_.back_facing[owner] != 0, screen_.triangles[pieces_.first[owner]].plane};
 }
 
-/// Barycentrics of the plane's point on the pixel's ray. A corner a is moved along the ray r = (u, v, -1) onto z = 0,
-/// a' = a + a.z (u, v): det(r, b, c) does not change by that, so the weight of a is cross(b', c'), whether or not the
-/// corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine in (u, v).
+/// Barycentrics of the plane's point on the pixel's ray. A corner a is moved along the ray r = (u, v, -1)
+/// onto z = 0, a' = a + a.z (u, v): det(r, b, c) does not change by that, so the weight of a is cross(b',
+/// c'), whether or not the corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine
+/// in (u, v).
 Shading::Location Shading::locate(const Surface& surface, glm::dvec2 p_px) const {
     const glm::dvec2 uv = map_.toImagePlane(p_px);
     std::array<glm::dvec2, 3> moved;
     std::array<double, 3> slope;  // d a' / d(u, v), times the identity
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 p(camera_from_world_ * glm::dvec4(surface.geometry->position_world[surface.vertex[k]], 1.0));
+        const glm::dvec3 p(camera_from_world_ *
+                           glm::dvec4(surface.geometry->position_world[surface.vertex[k]], 1.0));
         slope[k] = map_.perspective ? p.z : -1.0;
         moved[k] = glm::dvec2(p) + slope[k] * uv;
     }
@@ -123,7 +130,9 @@ Shading::Location Shading::locate(const Surface& surface, glm::dvec2 p_px) const
 }
 
 /// Towards the viewer on either side, and the same for all triangles of a plane.
-glm::dvec3 Shading::flatNormal(const Surface& surface) const { return pieces_.plane_normal_eye[surface.plane]; }
+glm::dvec3 Shading::flatNormal(const Surface& surface) const {
+    return pieces_.plane_normal_eye[surface.plane];
+}
 
 glm::dvec3 Shading::cornerNormal(const Surface& surface, int corner) const {
     const glm::dvec3& world = surface.geometry->normal_world[surface.vertex[corner]];
@@ -141,14 +150,16 @@ glm::dvec3 Shading::normalAt(const Surface& surface, const glm::dvec3& w) const 
 
 const MipPyramid* Shading::pyramidOf(const Surface& surface) const {
     const Material& material = *surface.material;
-    if (material.base_color_texture == kNone || surface.geometry->uv[material.base_color_uv].empty()) return nullptr;
+    if (material.base_color_texture == kNone || surface.geometry->uv[material.base_color_uv].empty())
+        return nullptr;
     const std::uint32_t image = scene_.textures[material.base_color_texture].image;
     return image == kNone ? nullptr : &*pyramids_[image];
 }
 
 glm::dvec3 Shading::textureAt(const Surface& surface, const Location& at) const {
     const auto& uv = surface.geometry->uv[surface.material->base_color_uv];
-    const TextureFootprint footprint{interpolate(uv, surface.vertex, at.d_dx), interpolate(uv, surface.vertex, at.d_dy)};
+    const TextureFootprint footprint{interpolate(uv, surface.vertex, at.d_dx),
+                                     interpolate(uv, surface.vertex, at.d_dy)};
     return sampleTexture(scene_.textures[surface.material->base_color_texture], *pyramidOf(surface),
                          interpolate(uv, surface.vertex, at.barycentric), footprint);
 }
@@ -175,7 +186,9 @@ std::optional<glm::dvec3> Shading::constant(const Surface& surface) const {
     return *base * rigLight(cornerNormal(surface, 0));
 }
 
-std::optional<glm::dvec3> Shading::constant(Owner owner) const { return constant(surfaceOf(owner)); }
+std::optional<glm::dvec3> Shading::constant(Owner owner) const {
+    return constant(surfaceOf(owner));
+}
 
 glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     const Surface surface = surfaceOf(owner);

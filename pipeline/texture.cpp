@@ -6,13 +6,15 @@
 namespace edgewise {
 namespace {
 
-/// The texels of a finer row that a coarser texel covers, as [begin, end) with the fractions of the first and last.
+/// The texels of a finer row that a coarser texel covers, as [begin, end) with the fractions of the first and
+/// last.
 struct Cover {
     int begin, end;
     double first, last;
 };
 
-/// Coarse texel i of `coarse` covers [i fine/coarse, (i + 1) fine/coarse); in units of 1/coarse all is integer.
+/// Coarse texel i of `coarse` covers [i fine/coarse, (i + 1) fine/coarse); in units of 1/coarse all is
+/// integer.
 Cover coverOf(int i, int fine, int coarse) {
     const long long from = 1LL * i * fine, to = 1LL * (i + 1) * fine;
     const int begin = static_cast<int>(from / coarse), end = static_cast<int>((to + coarse - 1) / coarse);
@@ -48,7 +50,8 @@ Image halve(const Image& fine) {
     return coarse;
 }
 
-/// One period of the wrapped coordinate: [0, 1) repeated, [0, 2) mirrored, clamped a texel or more outside [0, 1].
+/// One period of the wrapped coordinate: [0, 1) repeated, [0, 2) mirrored, clamped a texel or more outside
+/// [0, 1].
 double reduce(double u, Wrap wrap) {
     if (wrap == Wrap::kRepeat) return u - std::floor(u);
     if (wrap == Wrap::kMirroredRepeat) return u - 2.0 * std::floor(0.5 * u);
@@ -74,7 +77,8 @@ struct LevelSampler {
     }
 
     glm::dvec3 at(glm::dvec2 uv, TexelFilter filter) const {
-        const double x = reduce(uv.x, texture.wrap_s) * image.width, y = reduce(uv.y, texture.wrap_t) * image.height;
+        const double x = reduce(uv.x, texture.wrap_s) * image.width,
+                     y = reduce(uv.y, texture.wrap_t) * image.height;
         if (filter == TexelFilter::kNearest)
             return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
         const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
@@ -89,7 +93,8 @@ struct LevelSampler {
 /// In x87 arithmetic: the library's double log2 has variants by instruction set that differ in the last bit.
 double levelOf(const Image& image, const TextureFootprint& footprint) {
     const glm::dvec2 size(image.width, image.height);
-    const double longer = std::max(glm::length(footprint.duv_dx * size), glm::length(footprint.duv_dy * size));
+    const double longer =
+        std::max(glm::length(footprint.duv_dx * size), glm::length(footprint.duv_dy * size));
     return longer > 1.0 ? static_cast<double>(std::log2(static_cast<long double>(longer))) : 0.0;
 }
 
@@ -102,18 +107,22 @@ MipPyramid::MipPyramid(const Image& image) : base_(&image) {
         uniform_ = glm::dvec3(texels.front());
         return;
     }
-    while (level(levels() - 1).width > 1 || level(levels() - 1).height > 1) levels_.push_back(halve(level(levels() - 1)));
+    while (level(levels() - 1).width > 1 || level(levels() - 1).height > 1)
+        levels_.push_back(halve(level(levels() - 1)));
 }
 
 glm::dvec3 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
                          const TextureFootprint& footprint) {
     if (pyramid.uniform()) return *pyramid.uniform();
-    auto at = [&](int level, TexelFilter filter) { return LevelSampler{texture, pyramid.level(level)}.at(uv, filter); };
+    auto at = [&](int level, TexelFilter filter) {
+        return LevelSampler{texture, pyramid.level(level)}.at(uv, filter);
+    };
     const double level = levelOf(pyramid.level(0), footprint);
     if (!(level > 0.0)) return at(0, texture.mag);
     if (!texture.mip) return at(0, texture.min);
     const double last = pyramid.levels() - 1, bounded = std::min(level, last);
-    if (*texture.mip == TexelFilter::kNearest) return at(static_cast<int>(std::ceil(bounded - 0.5)), texture.min);
+    if (*texture.mip == TexelFilter::kNearest)
+        return at(static_cast<int>(std::ceil(bounded - 0.5)), texture.min);
     const int finer = static_cast<int>(std::floor(bounded));
     const double t = bounded - finer;
     if (t == 0.0) return at(finer, texture.min);

@@ -9,8 +9,9 @@
 
 namespace edgewise {
 
-/// Box-filtered levels of an image of any size: each level halves both sides, rounded down, and a texel of it is the
-/// exact area mean of the texels above, weighted where an odd side does not divide. Held as float, computed in double.
+/// Box-filtered levels of an image of any size: each level halves both sides, rounded down, and a texel of it
+/// is the exact area mean of the texels above, weighted where an odd side does not divide. Held as float,
+/// computed in double.
 class MipPyramid {
   public:
     explicit MipPyramid(const Image& image);
@@ -32,9 +33,9 @@ struct TextureFootprint {
     glm::dvec2 duv_dx{0.0}, duv_dy{0.0};
 };
 
-/// The texture at uv, (0, 0) being the image's upper left corner. The level is log2 of the longer of the footprint's two
-/// sides in texels of level 0 (OpenGL's rule); at 0 and below the mag filter holds, above it the min filter.
-/// uv need not be small, but must be finite.
+/// The texture at uv, (0, 0) being the image's upper left corner. The level is log2 of the longer of the
+/// footprint's two sides in texels of level 0 (OpenGL's rule); at 0 and below the mag filter holds, above it
+/// the min filter. uv need not be small, but must be finite.
 glm::dvec3 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
                          const TextureFootprint& footprint);
 

@@ -1,6 +1,7 @@
 // Weights: the visible map and a prefilter become, for every pixel, the weight of each owner (NSAA section 3.2).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "analytic/pixel_weights.h"

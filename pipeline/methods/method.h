@@ -1,4 +1,5 @@
-// The one interface of all antialiasing methods: scene, camera, film, filter, options -> image, stage times, plan.
+// The one interface of all antialiasing methods: scene, camera, film, filter, options -> image, stage times,
+// plan.
 #pragma once
 
 #include <cstdint>
@@ -94,7 +95,8 @@ struct MethodSpec {
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
 MethodSpec parseMethod(std::string_view typed);
 
-/// Throws InputError for what a method cannot do, FailureError where a limit is met, Interrupted when cancelled.
+/// Throws InputError for what a method cannot do, FailureError where a limit is met, Interrupted when
+/// cancelled.
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
 
 /// One line a method of this build: name, parameters, what it is.
@@ -106,8 +108,9 @@ struct MethodEntry {
     std::string name;
     std::string summary;
     Number number = Number::kAbsent;
-    int smallest = 1, largest = 64;                           ///< of the number
-    std::map<std::string, std::vector<std::string>> choices;  ///< parameter -> what it may be; device is added to all
+    int smallest = 1, largest = 64;  ///< of the number
+    std::map<std::string, std::vector<std::string>>
+        choices;  ///< parameter -> what it may be; device is added to all
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
 };
 

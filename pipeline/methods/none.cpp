@@ -32,8 +32,10 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
         in.progress.advance(1);
     });
     watch.book("shade", result.stages);
-    result.counts = {{"triangles", in.scene.triangle_count}, {"pieces", screen.triangles.size()},
-                     {"samples", owner.size()}, {"exact_depths", sampler.exactDepths()}};
+    result.counts = {{"triangles", in.scene.triangle_count},
+                     {"pieces", screen.triangles.size()},
+                     {"samples", owner.size()},
+                     {"exact_depths", sampler.exactDepths()}};
     return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include "pipeline/bands.h"
 #include "pipeline/blend.h"
+#include "pipeline/dump_stages.h"
 #include "pipeline/gather.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
@@ -42,10 +43,13 @@ class Nsaa {
     explicit Nsaa(const MethodInput& in)
         : in_(in),
           screen_(project(in.scene, in.camera, in.film, pieces_)),
-          shading_(in.scene, in.camera, in.film, screen_, pieces_) {
+          shading_(in.scene, in.camera, in.film, screen_, pieces_),
+          dump_(in.options.dump_dir, in.film.crop) {
         watch_.book("project", result_.stages);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
         watch_.book("plan", result_.stages);
+        dump_.screen(screen_);
+        dump_.plan(plan_.entries);
     }
 
     MethodResult render() {
@@ -54,6 +58,7 @@ class Nsaa {
         const std::vector<PixelBox> bands = cutIntoBands(crop);
         in_.progress.stage("weights", static_cast<std::size_t>(crop.height()));
         for (const PixelBox& band : bands) renderBand(band);
+        dump_.finish();
         result_.plan = plan_.entries;
         fillCounts(bands.size());
         return std::move(result_);
@@ -105,6 +110,7 @@ class Nsaa {
     VisibleMap visibleMapOf(const PixelBox& box) {
         const CellGrid grid(windowOf(box, offset(), reachOf(in_.filter)));
         const IdLists lists = gather(screen_, grid);
+        dump_.gather(grid, lists);
         watch_.book("gather", result_.stages);
         VisibleMap map = visibility(screen_, grid, lists, plan_.visibility, in_.progress, visibility_counts_);
         watch_.book("visibility", result_.stages);
@@ -115,6 +121,7 @@ class Nsaa {
     void renderBand(const PixelBox& band) {
         checkCancelled(in_.progress);
         const VisibleMap map = visibleMapOf(band);
+        dump_.segments(map, band, offset());
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
         tbb::enumerable_thread_specific<TileWorker> workers(
@@ -133,6 +140,7 @@ class Nsaa {
         worker.weights.run(map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
                            plan_.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
+        dump_.weights(worker.tile);
         worker.pairs += worker.tile.entries.size();
         blend(worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); }, in_.options.background,
               result_.image);
@@ -179,6 +187,7 @@ class Nsaa {
     ScreenScene screen_;
     Shading shading_;
     Plan plan_;
+    StageDump dump_;
     VisibilityCounts visibility_counts_;
     std::map<std::string, std::uint64_t> counts_;
 };

@@ -27,7 +27,8 @@ int exactDepthSign(const DepthPlane& a, const DepthPlane& b, double dx, double d
     return difference.sign();
 }
 
-/// False only if the whole box lies outside an edge; rounding errs towards true (two products of u = 2^-53 each).
+/// False only if the whole box lies outside an edge; rounding errs towards true (two products of u = 2^-53
+/// each).
 bool mayMeet(const ScreenTriangle& t, glm::dvec2 low, glm::dvec2 high) {
     for (int k = 0; k < 3; ++k) {
         const glm::dvec2 a = t.p_px[k], along = t.p_px[(k + 1) % 3] - a;
@@ -40,7 +41,9 @@ bool mayMeet(const ScreenTriangle& t, glm::dvec2 low, glm::dvec2 high) {
 
 }  // namespace
 
-double sampleOffsetPx(int a, int per_side) { return roundToGrid((a + 0.5) / per_side); }
+double sampleOffsetPx(int a, int per_side) {
+    return roundToGrid((a + 0.5) / per_side);
+}
 
 /// One tile's samples and what has been seen at them so far.
 class TileSampler {
@@ -52,7 +55,8 @@ class TileSampler {
         scene_ = &sampler.scene_;
         per_side_ = sampler.per_side_;
         begin();
-        for (std::size_t i = sampler.first_[tile]; i < sampler.first_[tile + 1]; ++i) cover(sampler.binned_[i]);
+        for (std::size_t i = sampler.first_[tile]; i < sampler.first_[tile + 1]; ++i)
+            cover(sampler.binned_[i]);
         write(window, out);
         sampler.exact_depths_ += exact_depths_;
     }
@@ -91,8 +95,8 @@ class TileSampler {
             coverRow(index, t, plane, row, error + worst_error_);
     }
 
-    /// Bound of |z_computed - z| in this tile: z = A dx + (B dy + C) with at most 3 u of each term, u = 2^-53;
-    /// 4 u leaves room for the roundings of the bound itself.
+    /// Bound of |z_computed - z| in this tile: z = A dx + (B dy + C) with at most 3 u of each term, u =
+    /// 2^-53; 4 u leaves room for the roundings of the bound itself.
     double depthError(const DepthPlane& plane) const {
         const double reach_x = std::max(std::fabs(dx_.front()), std::fabs(dx_.back()));
         const double reach_y = std::max(std::fabs(y_px_.front() - scene_->anchor_px.y),
@@ -101,7 +105,8 @@ class TileSampler {
                           std::fabs(plane.z_anchor));
     }
 
-    void coverRow(std::uint32_t index, const ScreenTriangle& t, const DepthPlane& plane, std::size_t row, double bound) {
+    void coverRow(std::uint32_t index, const ScreenTriangle& t, const DepthPlane& plane, std::size_t row,
+                  double bound) {
         std::size_t begin = 0, end = x_px_.size();
         const double y = y_px_[row];
         for (int k = 0; k < 3 && begin < end; ++k) cutSpan(t.p_px[k], t.p_px[(k + 1) % 3], y, begin, end);
@@ -129,12 +134,13 @@ class TileSampler {
         }
     }
 
-    /// The first sample whose side of the edge satisfies a condition that holds from there on: a rounded guess, then
-    /// exact steps.
+    /// The first sample whose side of the edge satisfies a condition that holds from there on: a rounded
+    /// guess, then exact steps.
     template <class Condition>
     std::size_t firstWhere(glm::dvec2 a, glm::dvec2 b, double y, const Condition& holds) const {
         const double x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-        const double guess = std::clamp(std::ceil((x - x_px_.front()) * per_side_), 0.0, double(x_px_.size()));
+        const double guess =
+            std::clamp(std::ceil((x - x_px_.front()) * per_side_), 0.0, double(x_px_.size()));
         auto j = static_cast<std::size_t>(guess);
         auto sideOf = [&](std::size_t i) { return gridOrientation(a, b, {x_px_[i], y}); };
         while (j > 0 && holds(sideOf(j - 1))) --j;
@@ -157,7 +163,8 @@ class TileSampler {
         for (std::size_t row = 0; row < y_px_.size(); ++row)
             for (std::size_t j = 0; j < x_px_.size(); ++j) {
                 const std::uint32_t seen = seen_[row * x_px_.size() + j];
-                out[corner + row * stride + j] = seen == kNothing ? kBackground : scene_->triangles[seen].owner;
+                out[corner + row * stride + j] =
+                    seen == kNothing ? kBackground : scene_->triangles[seen].owner;
             }
     }
 
@@ -206,7 +213,8 @@ void PointSampler::visitTiles(const ScreenTriangle& t, const Visit& visit) const
         }
 }
 
-/// Count, scan, fill. Chunks of triangles are counted apart, so that the lists come out ascending in parallel.
+/// Count, scan, fill. Chunks of triangles are counted apart, so that the lists come out ascending in
+/// parallel.
 void PointSampler::binTriangles() {
     constexpr std::size_t kChunks = 16;
     const std::size_t tiles = static_cast<std::size_t>(tiles_x_) * tiles_y_, count = scene_.triangles.size();
@@ -226,11 +234,13 @@ void PointSampler::binTriangles() {
     }
     first_[tiles] = total;
     binned_.resize(total);
-    forEachChunk([&](std::size_t& cursor, std::size_t i) { binned_[cursor++] = static_cast<std::uint32_t>(i); });
+    forEachChunk(
+        [&](std::size_t& cursor, std::size_t i) { binned_[cursor++] = static_cast<std::uint32_t>(i); });
 }
 
 std::vector<Owner> PointSampler::sample(const PixelBox& window) const {
-    std::vector<Owner> out(static_cast<std::size_t>(window.width()) * window.height() * per_side_ * per_side_);
+    std::vector<Owner> out(static_cast<std::size_t>(window.width()) * window.height() * per_side_ *
+                           per_side_);
     const int x0 = (window.x0 - box_.x0) / tile_px_, x1 = (window.x1 - box_.x0 + tile_px_ - 1) / tile_px_;
     const int y0 = (window.y0 - box_.y0) / tile_px_, y1 = (window.y1 - box_.y0 + tile_px_ - 1) / tile_px_;
     tbb::enumerable_thread_specific<TileSampler> samplers;

@@ -10,19 +10,21 @@
 
 namespace edgewise {
 
-/// Sample (a, b) of a pixel lies at ((a + 1/2)/K, (b + 1/2)/K), rounded to the grid of 2^-32 px where K is no power of 2.
+/// Sample (a, b) of a pixel lies at ((a + 1/2)/K, (b + 1/2)/K), rounded to the grid of 2^-32 px where K is no
+/// power of 2.
 double sampleOffsetPx(int a, int per_side);
 
 /// Looks up samples of one projected scene. Every decision is exact:
-/// inside by the orientation of grid points, a point on an edge belonging to the triangle whose top or left edge it is,
-/// so that each point of a shared edge has one owner; nearer by the sign of the depth planes' difference; equal depth to
-/// the lower index.
+/// inside by the orientation of grid points, a point on an edge belonging to the triangle whose top or left
+/// edge it is, so that each point of a shared edge has one owner; nearer by the sign of the depth planes'
+/// difference; equal depth to the lower index.
 class PointSampler {
   public:
     /// K x K samples a pixel, for pixels of `box`.
     PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side);
 
-    /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by tiles.
+    /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by
+    /// tiles.
     std::vector<Owner> sample(const PixelBox& window) const;
 
     /// Depth decisions that the rounded planes left open.
@@ -40,8 +42,8 @@ class PointSampler {
     int per_side_;
     int tile_px_;
     int tiles_x_, tiles_y_;
-    std::vector<std::size_t> first_;        ///< by tile, into binned_
-    std::vector<std::uint32_t> binned_;     ///< triangles of each tile, ascending
+    std::vector<std::size_t> first_;     ///< by tile, into binned_
+    std::vector<std::uint32_t> binned_;  ///< triangles of each tile, ascending
     mutable std::atomic<std::uint64_t> exact_depths_{0};
 };
 

@@ -16,7 +16,8 @@ const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
 
 const MethodEntry* findMethod(std::string_view name) {
     const auto& registry = methodRegistry();
-    const auto found = std::find_if(registry.begin(), registry.end(), [&](const auto& m) { return m.name == name; });
+    const auto found =
+        std::find_if(registry.begin(), registry.end(), [&](const auto& m) { return m.name == name; });
     return found == registry.end() ? nullptr : &*found;
 }
 
@@ -42,13 +43,15 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spec) {
-    if (entry.number == MethodEntry::Number::kAbsent) fail(spec.typed, fmt::format("'{}' takes no number", entry.name));
+    if (entry.number == MethodEntry::Number::kAbsent)
+        fail(spec.typed, fmt::format("'{}' takes no number", entry.name));
     if (spec.number) fail(spec.typed, "has two numbers");
     int value = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
     if (!whole || value < entry.smallest || value > entry.largest)
-        fail(spec.typed, fmt::format("'{}' is not a number from {} to {}", text, entry.smallest, entry.largest));
+        fail(spec.typed,
+             fmt::format("'{}' is not a number from {} to {}", text, entry.smallest, entry.largest));
     spec.number = value;
 }
 
@@ -85,7 +88,8 @@ std::string describe(const MethodEntry& entry) {
     std::vector<std::string> parameters;
     if (entry.number == MethodEntry::Number::kRequired)
         parameters.push_back(fmt::format("{}..{}", entry.smallest, entry.largest));
-    for (const auto& [key, choices] : entry.choices) parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
+    for (const auto& [key, choices] : entry.choices)
+        parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
     parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
     return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
 }
@@ -95,6 +99,10 @@ std::string describe(const MethodEntry& entry) {
 const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
         {.name = "none", .summary = "one sample at the pixel's centre", .choices = {}, .run = runNone},
+        {.name = "nsaa",
+         .summary = "the exact integral of the filter over what is visible of every triangle",
+         .choices = {{"visibility", {"slab"}}},
+         .run = runNsaa},
         {.name = "ssaa",
          .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
          .number = MethodEntry::Number::kRequired,
@@ -114,7 +122,8 @@ MethodSpec parseMethod(std::string_view typed) {
 
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
-    if (!spec.composed.empty()) fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
+    if (!spec.composed.empty())
+        fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
     arena.execute([&] { result = entry.run(spec, input); });

@@ -8,6 +8,7 @@ namespace edgewise {
 const std::vector<MethodEntry>& methodRegistry();
 
 MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
+MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 
 }  // namespace edgewise

@@ -17,7 +17,9 @@ struct Table {
 
 Table evaluateTable(const Prefilter& filter, int per_side, int margin_px) {
     Table table{(2 * margin_px + 1) * per_side, {}};
-    auto position = [&](int i) { return i / per_side - margin_px + sampleOffsetPx(i % per_side, per_side) - 0.5; };
+    auto position = [&](int i) {
+        return i / per_side - margin_px + sampleOffsetPx(i % per_side, per_side) - 0.5;
+    };
     for (int row = 0; row < table.side; ++row)
         for (int column = 0; column < table.side; ++column)
             table.weight.push_back(evaluate(filter, position(column), position(row)));
@@ -29,8 +31,9 @@ std::vector<FixedWeight> normalise(const Table& table) {
     double sum = 0.0;
     for (const double w : table.weight) sum += w;
     if (!(sum > 0.0))
-        throw InputError("ssaa", "the samples' weights do not sum to more than 0: none meets the filter's support; "
-                                 "use more samples or a larger radius");
+        throw InputError("ssaa",
+                         "the samples' weights do not sum to more than 0: none meets the filter's support; "
+                         "use more samples or a larger radius");
     std::vector<FixedWeight> fixed;
     FixedWeight rest = FixedWeight(1) << kWeightBits;
     for (const double w : table.weight) {

@@ -8,8 +8,8 @@
 
 namespace edgewise {
 
-/// Weights in fixed point that sum to exactly 2^60, as running sums along each row: the weight of a run of samples that
-/// one owner covers is one exact difference.
+/// Weights in fixed point that sum to exactly 2^60, as running sums along each row: the weight of a run of
+/// samples that one owner covers is one exact difference.
 struct SampleWeights {
     struct Row {
         int first = 0;                     ///< leftmost sample, counted from the window's left

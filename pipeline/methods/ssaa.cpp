@@ -18,10 +18,11 @@ namespace {
 /// The samples of a window of pixels.
 struct SampleBand {
     PixelBox window;
-    std::size_t stride = 0;            ///< samples a row
+    std::size_t stride = 0;  ///< samples a row
     std::vector<Owner> owner;
-    std::vector<std::uint32_t> run_end;  ///< the first sample of the row, at or after this one, with another owner
-    std::vector<glm::dvec3> colour;      ///< where each sample is shaded where it lands
+    std::vector<std::uint32_t>
+        run_end;  ///< the first sample of the row, at or after this one, with another owner
+    std::vector<glm::dvec3> colour;  ///< where each sample is shaded where it lands
 };
 
 /// Samples [begin, end) of one row of a pixel's window that one owner covers.
@@ -37,7 +38,9 @@ struct OwnerPart {
     double weight = 0.0;
 };
 
-double toDouble(FixedWeight weight) { return std::ldexp(static_cast<double>(weight), -kWeightBits); }
+double toDouble(FixedWeight weight) {
+    return std::ldexp(static_cast<double>(weight), -kWeightBits);
+}
 
 class PixelFilter {
   public:
@@ -52,7 +55,8 @@ class PixelFilter {
         });
     }
 
-    void filterRow(const SampleBand& band, int y, ImageBuffer& image, std::atomic<std::uint64_t>& shaded) const {
+    void filterRow(const SampleBand& band, int y, ImageBuffer& image,
+                   std::atomic<std::uint64_t>& shaded) const {
         std::vector<OwnerRun> runs;
         std::uint64_t count = 0;
         for (int x = image.box.x0; x < image.box.x1; ++x) {
@@ -79,7 +83,9 @@ class PixelFilter {
                 begin = end;
             }
         }
-        if (mixed) std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.owner < b.owner; });
+        if (mixed)
+            std::stable_sort(runs.begin(), runs.end(),
+                             [](const auto& a, const auto& b) { return a.owner < b.owner; });
     }
 
     std::size_t firstSample(const SampleBand& band, int x, int y, int row) const {
@@ -88,7 +94,8 @@ class PixelFilter {
         return static_cast<std::size_t>(top + row) * band.stride + left + weights_.rows[row].first;
     }
 
-    std::uint64_t blend(const SampleBand& band, int x, int y, const std::vector<OwnerRun>& runs, ImageBuffer& image) const {
+    std::uint64_t blend(const SampleBand& band, int x, int y, const std::vector<OwnerRun>& runs,
+                        ImageBuffer& image) const {
         glm::dvec4 sum(0.0);
         glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
         std::uint64_t owners = 0;
@@ -103,7 +110,8 @@ class PixelFilter {
         }
         const glm::dvec3 contrast = most - least;
         image.rgba[image.index(x, y)] = sum;
-        image.edge[image.index(x, y)] = std::max({contrast.r, contrast.g, contrast.b}) > kEdgeContrast ? 1.0f : 0.0f;
+        image.edge[image.index(x, y)] =
+            std::max({contrast.r, contrast.g, contrast.b}) > kEdgeContrast ? 1.0f : 0.0f;
         return owners;
     }
 
@@ -121,7 +129,8 @@ class PixelFilter {
     glm::dvec3 shade(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
         const Owner owner = runs.front().owner;
         if (owner == kBackground) return in_.options.background;
-        if (in_.options.shading.mode == ShadingMode::kClosest) return shading_.closest(owner, {x + 0.5, y + 0.5});
+        if (in_.options.shading.mode == ShadingMode::kClosest)
+            return shading_.closest(owner, {x + 0.5, y + 0.5});
         if (const auto colour = shading_.constant(owner)) return *colour;
         const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
         if (in_.options.shading.mode == ShadingMode::kCentroid) {
@@ -141,7 +150,8 @@ class PixelFilter {
         return sum / double(count);
     }
 
-    OwnerPart hitPart(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs, OwnerPart part) const {
+    OwnerPart hitPart(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs,
+                      OwnerPart part) const {
         std::size_t count = 0;
         for (const OwnerRun& run : runs) {
             const std::size_t start = firstSample(band, x, y, run.row);
@@ -154,7 +164,8 @@ class PixelFilter {
         return part;
     }
 
-    std::vector<glm::dvec2> seenAt(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
+    std::vector<glm::dvec2> seenAt(const SampleBand& band, int x, int y,
+                                   std::span<const OwnerRun> runs) const {
         std::vector<glm::dvec2> seen;
         for (const OwnerRun& run : runs) {
             const std::size_t start = firstSample(band, x, y, run.row);
@@ -246,8 +257,11 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
         checkCancelled(in.progress);
         watch.book("shade", result.stages);
     }
-    result.counts = {{"triangles", in.scene.triangle_count}, {"pieces", screen.triangles.size()},
-                     {"samples", samples}, {"shaded", shaded}, {"exact_depths", sampler.exactDepths()}};
+    result.counts = {{"triangles", in.scene.triangle_count},
+                     {"pieces", screen.triangles.size()},
+                     {"samples", samples},
+                     {"shaded", shaded},
+                     {"exact_depths", sampler.exactDepths()}};
     return result;
 }
 

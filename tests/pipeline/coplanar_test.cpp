@@ -16,7 +16,9 @@ using boost::multiprecision::cpp_rational;
 using test::Corners;
 using Exact = std::array<cpp_rational, 3>;
 
-Exact exact(const glm::vec3& p) { return {cpp_rational(p.x), cpp_rational(p.y), cpp_rational(p.z)}; }
+Exact exact(const glm::vec3& p) {
+    return {cpp_rational(p.x), cpp_rational(p.y), cpp_rational(p.z)};
+}
 
 Exact exactNormal(const Corners& t) {
     const Exact a = exact(t[0]), b = exact(t[1]), c = exact(t[2]);
@@ -61,7 +63,8 @@ TEST(Coplanar, GroupsMatchExactRationals) {
             for (std::size_t j = 0; j < i; ++j) {
                 if (groups.plane_of[i] == kNone || groups.plane_of[j] == kNone) continue;
                 const bool same = exactlyCoplanar(triangles[i], triangles[j]);
-                ASSERT_EQ(groups.plane_of[i] == groups.plane_of[j], same) << i << " " << j << " scale " << scale;
+                ASSERT_EQ(groups.plane_of[i] == groups.plane_of[j], same)
+                    << i << " " << j << " scale " << scale;
                 together += same;
             }
         }
@@ -85,7 +88,8 @@ TEST(Coplanar, OneUlpSeparatesPlanes) {
 TEST(Coplanar, NodesAndWindings) {
     const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0);
     const std::vector<Corners> square{{a, b, c}, {a, d, c}};
-    const auto groups = findCoplanar(test::makeScene({test::makeGeometry(square), test::makeGeometry(square)}));
+    const auto groups =
+        findCoplanar(test::makeScene({test::makeGeometry(square), test::makeGeometry(square)}));
     EXPECT_EQ(groups.plane_of, (std::vector<std::uint32_t>{0, 0, 1, 1}));
     EXPECT_EQ(groups.reversed, (std::vector<std::uint8_t>{0, 1, 0, 1}));
 }
@@ -120,7 +124,7 @@ TEST(Coplanar, NormalsOfSliversAreDoubleDouble) {
     }
     std::printf("seed 11: %zu slivers, worst relative error 2^%.1f\n", slivers, std::log2(worst));
     EXPECT_GT(slivers, 150u);
-    EXPECT_GT(worst, 0.0);  // it met normals that do not fit
+    EXPECT_GT(worst, 0.0);       // it met normals that do not fit
     EXPECT_LE(worst, 0x1p-104);  // what FilePlane promises
 }
 
@@ -136,7 +140,8 @@ TEST(Coplanar, MillionTriangles) {
     const auto begin = std::chrono::steady_clock::now();
     const auto groups = findCoplanar(scene);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    std::printf("%zu triangles, %zu planes, %.3f s\n", triangles.size(), groups.planes.size(), seconds.count());
+    std::printf("%zu triangles, %zu planes, %.3f s\n", triangles.size(), groups.planes.size(),
+                seconds.count());
     EXPECT_LE(groups.planes.size(), 750000u);
 }
 

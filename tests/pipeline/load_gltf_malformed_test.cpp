@@ -1,12 +1,9 @@
-// Inputs that must be refused: each names the element, each error is one line.
+// A table of spoiled files: each is refused by the name of the element, in one line.
 #include <gtest/gtest.h>
 
-#include <sys/stat.h>
 #include <functional>
 
-#include "pipeline/error.h"
-#include "pipeline/gltf_document.h"
-#include "pipeline/load_gltf.h"
+#include "tests/pipeline/load_problem.h"
 #include "tests/pipeline/tiny_gltf_file.h"
 #include "tests/pipeline/tiny_png.h"
 
@@ -14,23 +11,8 @@ namespace edgewise {
 namespace {
 
 using nlohmann::json;
-using test::TempFolder;
+using test::problemOf;
 using test::TinyGltf;
-
-/// The message of the InputError, without the file's name; "" if the file loads.
-std::string problemOf(const std::string& bytes) {
-    const TempFolder folder;
-    test::writeFile(folder / "a.gltf", bytes);
-    try {
-        loadGltf(folder / "a.gltf");
-    } catch (const InputError& error) {
-        const std::string text = error.what(), file = (folder / "a.gltf").string() + ": ";
-        EXPECT_EQ(text.substr(0, file.size()), file);
-        EXPECT_EQ(text.find('\n'), std::string::npos);
-        return text.substr(std::min(file.size(), text.size()));
-    }
-    return "";
-}
 
 struct Malformed {
     const char* expected;  ///< the message starts so
@@ -358,64 +340,6 @@ TEST(LoadGltfMalformed, EveryRowIsRefusedByName) {
         EXPECT_EQ(problemOf(file.asGltf()).substr(0, std::strlen(row.expected)), row.expected)
             << "whole message: " << problemOf(file.asGltf());
     }
-}
-
-TEST(LoadGltfMalformed, ContainersAreRefusedByName) {
-    const std::string good = TinyGltf().asGlb();
-    const auto patched = [&](std::size_t at, std::uint32_t value) {
-        std::string bytes = good;
-        std::memcpy(&bytes[at], &value, 4);
-        return bytes;
-    };
-    EXPECT_EQ(problemOf(good), "");
-    EXPECT_EQ(problemOf(""), "is neither glTF nor GLB: shorter than 4 bytes");
-    EXPECT_EQ(problemOf("glTF"), "GLB header: the file is shorter than 12 bytes");
-    EXPECT_EQ(problemOf(patched(4, 1)), "GLB header: version 1 is not supported, only 2");
-    EXPECT_TRUE(problemOf(patched(8, 7)).starts_with("GLB header: says 7 bytes"));
-    EXPECT_TRUE(problemOf(patched(12, 0xfffffffc)).starts_with("GLB chunk 0: has length 4294967292"));
-    EXPECT_TRUE(problemOf(patched(16, 1)).starts_with("GLB chunk 0: has type 0x00000001, not JSON"));
-    EXPECT_TRUE(problemOf(test::glb("")).starts_with("GLB chunk 0: its header is cut off"));
-    EXPECT_TRUE(problemOf(test::glb(test::chunk(0x4e4f534a, TinyGltf().asGltf(), ' ') + "abc"))
-                    .starts_with("GLB chunk 1: its header is cut off"));
-}
-
-TEST(LoadGltfMalformed, TextThatIsNoJson) {
-    EXPECT_TRUE(problemOf("{\"asset\": }").starts_with("JSON: "));
-    EXPECT_TRUE(problemOf("{\"a\": \"\xff\"}").starts_with("JSON: "));
-    EXPECT_TRUE(problemOf("{\"a\": 1e999}").starts_with("JSON: "));
-    EXPECT_EQ(problemOf("[1, 2]"), "JSON: the file's root is not an object");
-    EXPECT_EQ(problemOf(std::string(10'000'000, '[')), "JSON: is nested deeper than 256 levels");
-    EXPECT_EQ(jsonDepth(R"({"a": ["[[[", "\"[[", {}]})", 100), 3);
-}
-
-TEST(LoadGltfMalformed, EveryTruncationOfAGlbIsRefused) {
-    const std::string good = TinyGltf().asGlb();
-    for (std::size_t length = 0; length < good.size(); ++length)
-        EXPECT_NE(problemOf(good.substr(0, length)), "") << length;
-}
-
-TEST(LoadGltfMalformed, OddFilesNeitherHangNorEscape) {
-    const TempFolder folder, outside;
-    EXPECT_THROW(loadGltf(folder / "absent.glb"), InputError);
-    EXPECT_THROW(loadGltf(folder / ""), InputError);
-    ASSERT_EQ(::mkfifo((folder / "pipe.bin").c_str(), 0600), 0);
-    test::writeFile(outside / "secret.bin", std::string(36, '\0'));
-    std::filesystem::create_symlink(outside / "secret.bin", folder / "link.bin");
-    for (const char* uri : {"pipe.bin", "link.bin", ".", "a\nb"}) {
-        TinyGltf file;
-        file.root["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
-        test::writeFile(folder / "a.gltf", file.asGltf());
-        EXPECT_THROW(loadGltf(folder / "a.gltf"), InputError) << uri;
-    }
-}
-
-TEST(LoadGltfMalformed, LimitsAreFailuresNotInputErrors) {
-    const TempFolder folder;
-    TinyGltf file;
-    file.root["accessors"][0]["count"] = 4'000'000'000u;
-    file.root["accessors"][0].erase("bufferView");
-    test::writeFile(folder / "a.gltf", file.asGltf());
-    EXPECT_THROW(loadGltf(folder / "a.gltf"), FailureError);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ TEST(LoadGltf, AllContainersGiveTheSameScene) {
     TinyGltf file;
     test::writeFile(folder / "a.glb", file.asGlb());
     test::writeFile(folder / "b.gltf", file.asGltf());
-    test::writeFile(folder / "long name.bin", file.buffer + "more bytes than byteLength");
-    file.root["buffers"] = {{{"byteLength", 36.0}, {"uri", "long%20name.bin"}}};
+    test::writeFile(folder / "long +name.bin", file.buffer + "more bytes than byteLength");
+    file.root["buffers"] = {{{"byteLength", 36.0}, {"uri", "long%20+name.bin"}}};
     test::writeFile(folder / "c.gltf", file.asGltf());
     for (const char* name : {"a.glb", "b.gltf", "c.gltf"}) {
         const Scene scene = loadGltf(folder / name);

@@ -14,7 +14,8 @@ using boost::multiprecision::cpp_rational;
 
 cpp_rational crossExact(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
     const cpp_rational ax(a.x), ay(a.y);
-    return (cpp_rational(b.x) - ax) * (cpp_rational(s.y) - ay) - (cpp_rational(b.y) - ay) * (cpp_rational(s.x) - ax);
+    return (cpp_rational(b.x) - ax) * (cpp_rational(s.y) - ay) -
+           (cpp_rational(b.y) - ay) * (cpp_rational(s.x) - ax);
 }
 
 struct Seen {
@@ -42,7 +43,8 @@ Owner bruteForce(const ScreenScene& scene, glm::dvec2 s, Seen& seen) {
         const DepthPlane& p = scene.planes[t.plane];
         const cpp_rational depth =
             cpp_rational(p.dz_dx) * (cpp_rational(s.x) - cpp_rational(scene.anchor_px.x)) +
-            cpp_rational(p.dz_dy) * (cpp_rational(s.y) - cpp_rational(scene.anchor_px.y)) + cpp_rational(p.z_anchor);
+            cpp_rational(p.dz_dy) * (cpp_rational(s.y) - cpp_rational(scene.anchor_px.y)) +
+            cpp_rational(p.z_anchor);
         if (best != kBackground && depth == best_depth) ++seen.depth_ties;
         if (best != kBackground && depth <= best_depth) continue;
         best = t.owner;
@@ -51,11 +53,14 @@ Owner bruteForce(const ScreenScene& scene, glm::dvec2 s, Seen& seen) {
     return best;
 }
 
-/// Corners on a lattice of so many steps a pixel, or (0) anywhere on the grid; planes that tie at many samples.
+/// Corners on a lattice of so many steps a pixel, or (0) anywhere on the grid; planes that tie at many
+/// samples.
 ScreenScene randomScene(std::mt19937& random, int count, int lattice, int size) {
     std::uniform_int_distribution<int> coarse(-2 * lattice, (size + 2) * lattice), slope(-2, 2);
     std::uniform_real_distribution<double> fine(-2.0, size + 2.0);
-    auto coordinate = [&] { return lattice ? coarse(random) / double(lattice) : std::floor(fine(random) * 0x1p32) * kGridPx; };
+    auto coordinate = [&] {
+        return lattice ? coarse(random) / double(lattice) : std::floor(fine(random) * 0x1p32) * kGridPx;
+    };
     ScreenScene scene;
     scene.anchor_px = {size / 2.0 + 0.5, size / 2.0};
     while (scene.triangles.size() < static_cast<std::size_t>(count)) {
@@ -97,19 +102,21 @@ TEST(PointSamples, MatchExactRationals) {
         compare(randomScene(random, 30, lattice, size), box, box, per_side, seen, exact_depths);
         compare(randomScene(random, 30, 0, size), outer, band, per_side, seen, exact_depths);
     }
-    std::printf("seed 23: %zu hits, %zu samples on edge lines, %zu depth ties, %llu exact depth decisions\n", seen.covered,
-                seen.on_edges, seen.depth_ties, static_cast<unsigned long long>(exact_depths));
+    std::printf("seed 23: %zu hits, %zu samples on edge lines, %zu depth ties, %llu exact depth decisions\n",
+                seen.covered, seen.on_edges, seen.depth_ties, static_cast<unsigned long long>(exact_depths));
     EXPECT_GT(seen.on_edges, 200u);
     EXPECT_GT(seen.depth_ties, 100u);
     EXPECT_GT(exact_depths, 100u);
 }
 
 TEST(PointSamples, EachPointOfAFanHasOneOwner) {
-    // Triangles around a vertex that is itself a sample, with edges through other samples: no gap, no overlap.
+    // Triangles around a vertex that is itself a sample, with edges through other samples: no gap, no
+    // overlap.
     ScreenScene scene;
     scene.anchor_px = {4.0, 4.0};
     const glm::dvec2 hub(4.5, 4.5);
-    const std::vector<glm::dvec2> rim{{0.5, 0.5}, {4.5, 0.5}, {8.5, 0.5}, {8.5, 4.5}, {8.5, 8.5}, {1.5, 7.5}, {0.5, 4.5}};
+    const std::vector<glm::dvec2> rim{{0.5, 0.5}, {4.5, 0.5}, {8.5, 0.5}, {8.5, 4.5},
+                                      {8.5, 8.5}, {1.5, 7.5}, {0.5, 4.5}};
     for (std::size_t i = 0; i < rim.size(); ++i) {
         scene.triangles.push_back({{hub, rim[i], rim[(i + 1) % rim.size()]}, {}, static_cast<Owner>(i), 0});
         ASSERT_GT(gridOrientation(hub, rim[i], rim[(i + 1) % rim.size()]), 0);
@@ -136,7 +143,8 @@ TEST(PointSamples, TilesAndWindowsDoNotShow) {
     const auto cut = PointSampler(scene, part, 4).sample(part);
     for (int y = 0; y < part.height() * 4; ++y)
         for (int x = 0; x < part.width() * 4; ++x)
-            ASSERT_EQ(cut[std::size_t(y) * part.width() * 4 + x], whole[std::size_t(y + part.y0 * 4) * 400 + x + part.x0 * 4]);
+            ASSERT_EQ(cut[std::size_t(y) * part.width() * 4 + x],
+                      whole[std::size_t(y + part.y0 * 4) * 400 + x + part.x0 * 4]);
 }
 
 }  // namespace

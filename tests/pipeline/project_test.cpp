@@ -127,15 +127,21 @@ TEST(Project, AgreesWithRaysAroundTheEye) {
     std::size_t hits = 0, behind = 0, unclear = 0;
     double worst = 0;
     for (Owner owner = 0; owner < triangles.size(); ++owner) {
-        const bool reaches_behind = std::max({triangles[owner][0].z, triangles[owner][1].z, triangles[owner][2].z}) > 0;
+        const bool reaches_behind =
+            std::max({triangles[owner][0].z, triangles[owner][1].z, triangles[owner][2].z}) > 0;
         for (int i = 0; i < 200; ++i) {
             const glm::dvec2 p(x(random), y(random));
             const Hit hit = trace(triangles[owner], (p.x - 32) / 24.0L, (24 - p.y) / 24.0L, 0.125L);
-            // Vertices are off by 2^-33 px and the ray's own margin is relative: nearer than this either may be right.
-            if (std::fabs(hit.margin) < 0x1p-28L) { ++unclear; continue; }
+            // Vertices are off by 2^-33 px and the ray's own margin is relative: nearer than this either may
+            // be right.
+            if (std::fabs(hit.margin) < 0x1p-28L) {
+                ++unclear;
+                continue;
+            }
             bool covered = false;
             for (const ScreenTriangle& t : pieces.of(owner, screen)) covered |= covers(t, p);
-            ASSERT_EQ(covered, hit.inside) << owner << " at " << p.x << ", " << p.y << " margin " << double(hit.margin);
+            ASSERT_EQ(covered, hit.inside)
+                << owner << " at " << p.x << ", " << p.y << " margin " << double(hit.margin);
             if (!covered) continue;
             ++hits;
             behind += reaches_behind;
@@ -143,15 +149,18 @@ TEST(Project, AgreesWithRaysAroundTheEye) {
             worst = std::max(worst, std::fabs(double(z * hit.w - 1)));
         }
     }
-    std::printf("seed 17: %zu hits, %zu on triangles that reach behind the eye, %zu unclear, worst relative depth error "
-                "%.2g, %zu of %zu clipped\n", hits, behind, unclear, worst, pieces.counts.clipped, pieces.counts.visible);
+    std::printf(
+        "seed 17: %zu hits, %zu on triangles that reach behind the eye, %zu unclear, worst relative depth "
+        "error "
+        "%.2g, %zu of %zu clipped\n",
+        hits, behind, unclear, worst, pieces.counts.clipped, pieces.counts.visible);
     EXPECT_GT(behind, 1000u);
     EXPECT_GT(pieces.counts.clipped, 100u);
     EXPECT_LT(unclear, 10u);
 }
 
-/// A wavy sheet of quads through the near plane and past the eye: the edges of its pieces must cancel in opposite pairs,
-/// except along its border and where planes cut it.
+/// A wavy sheet of quads through the near plane and past the eye: the edges of its pieces must cancel in
+/// opposite pairs, except along its border and where planes cut it.
 TEST(Project, NeighboursStayCrackFreeAfterClipping) {
     std::mt19937 random(31);
     std::uniform_real_distribution<float> jitter(-0.3f, 0.3f);
@@ -159,12 +168,13 @@ TEST(Project, NeighboursStayCrackFreeAfterClipping) {
     std::vector<glm::vec3> p;
     for (int j = 0; j <= kSide; ++j)
         for (int i = 0; i <= kSide; ++i)
-            p.push_back({(i - kSide / 2) * 0.25f + jitter(random) / 4, -1 + jitter(random) / 8, (j - kSide / 2) * 0.25f + jitter(random) / 4});
+            p.push_back({(i - kSide / 2) * 0.25f + jitter(random) / 4, -1 + jitter(random) / 8,
+                         (j - kSide / 2) * 0.25f + jitter(random) / 4});
     std::vector<Corners> triangles;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {
-            const auto a = p[j * (kSide + 1) + i], b = p[j * (kSide + 1) + i + 1], c = p[(j + 1) * (kSide + 1) + i + 1],
-                       d = p[(j + 1) * (kSide + 1) + i];
+            const auto a = p[j * (kSide + 1) + i], b = p[j * (kSide + 1) + i + 1],
+                       c = p[(j + 1) * (kSide + 1) + i + 1], d = p[(j + 1) * (kSide + 1) + i];
             triangles.push_back({a, d, c});
             triangles.push_back({a, c, b});
         }
@@ -192,20 +202,23 @@ TEST(Project, NeighboursStayCrackFreeAfterClipping) {
         cut += both_made;
         uncancelled += !both_made;
     }
-    std::printf("seed 31: %zu clipped triangles, %zu edges along cutting planes, %zu border edges\n", pieces.counts.clipped,
-                cut, uncancelled);
+    std::printf("seed 31: %zu clipped triangles, %zu edges along cutting planes, %zu border edges\n",
+                pieces.counts.clipped, cut, uncancelled);
     EXPECT_GT(pieces.counts.clipped, 60u);
-    // What is left is the border in front of the eye: the far row and half of the two sides, one edge cut on each.
+    // What is left is the border in front of the eye: the far row and half of the two sides, one edge cut on
+    // each.
     EXPECT_GE(uncancelled, std::size_t(kSide + 2 * (kSide / 2)));
     EXPECT_LE(uncancelled, std::size_t(kSide + 2 * (kSide / 2 + 1)));
 }
 
 TEST(Project, CoplanarTrianglesAndDuplicatesShareDepthBits) {
-    const glm::dmat4 world = glm::rotate(glm::translate(glm::dmat4(1.0), {0.1, 0.2, -5.3}), 0.7, {1.0, 2.0, 3.0});
+    const glm::dmat4 world =
+        glm::rotate(glm::translate(glm::dmat4(1.0), {0.1, 0.2, -5.3}), 0.7, {1.0, 2.0, 3.0});
     const glm::vec3 a(0, 0, 0.1f), b(1, 0, 0.1f), c(1, 1, 0.1f), d(0, 1, 0.1f);
     const std::vector<Corners> square{{a, b, c}, {a, c, d}, {b, c, d}};
-    const ScreenScene screen = project(test::makeScene({test::makeGeometry(square, world), test::makeGeometry(square, world)}),
-                                       test::makePerspective(), test::makeFilm(640, 480));
+    const ScreenScene screen =
+        project(test::makeScene({test::makeGeometry(square, world), test::makeGeometry(square, world)}),
+                test::makePerspective(), test::makeFilm(640, 480));
     ASSERT_EQ(screen.triangles.size(), 6u);
     EXPECT_EQ(screen.triangles[0].plane, screen.triangles[1].plane);
     EXPECT_EQ(screen.triangles[0].plane, screen.triangles[2].plane);
@@ -235,9 +248,10 @@ TEST(Project, EdgeOnFarAndEmptyScenes) {
     ResolvedCamera camera = test::makePerspective();
     camera.camera.zfar = 10.0;
     ScreenPieces pieces;
-    const Scene scene = test::makeScene({test::makeGeometry({{{{0, 0, 0}, {1, 0, -5}, {0, 0, -5}}},       // through the eye
-                                                             {{{-1, -1, -11}, {1, -1, -11}, {0, 1, -12}}},  // beyond
-                                                             {{{-1, -1, 1}, {1, -1, 2}, {0, 1, 3}}}})});    // behind
+    const Scene scene =
+        test::makeScene({test::makeGeometry({{{{0, 0, 0}, {1, 0, -5}, {0, 0, -5}}},         // through the eye
+                                             {{{-1, -1, -11}, {1, -1, -11}, {0, 1, -12}}},  // beyond
+                                             {{{-1, -1, 1}, {1, -1, 2}, {0, 1, 3}}}})});    // behind
     EXPECT_TRUE(project(scene, camera, test::makeFilm(64, 64), pieces).triangles.empty());
     EXPECT_EQ(pieces.counts.no_area, 1u);
     EXPECT_EQ(pieces.counts.outside, 2u);

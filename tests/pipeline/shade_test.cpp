@@ -38,9 +38,9 @@ void expectNear(const glm::dvec3& got, const glm::dvec3& want, double bound) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], want[k], bound) << "channel " << k;
 }
 
-/// Colours equal to eye-space positions: then the colour at a pixel is the ray's hit, partly behind the eye or not.
-/// The rounding bound counts u = 2^-53 for the dozen operations on values up to 16 and is doubled for conditioning of
-/// triangles that the test keeps fat; vertices are not rounded to the grid here.
+/// Colours equal to eye-space positions: then the colour at a pixel is the ray's hit, partly behind the eye
+/// or not. The rounding bound counts u = 2^-53 for the dozen operations on values up to 16 and is doubled for
+/// conditioning of triangles that the test keeps fat; vertices are not rounded to the grid here.
 TEST(Shade, PerspectiveCorrectAlsoBehindTheEye) {
     std::mt19937 random(41);
     std::uniform_real_distribution<float> side(-4, 4), depth(-6, 3);
@@ -60,9 +60,11 @@ TEST(Shade, PerspectiveCorrectAlsoBehindTheEye) {
             const double w = 1.0 / (z.dz_dx * from.x + z.dz_dy * from.y + z.z_anchor);
             const glm::dvec3 hit(w * (centre.x - 32) / 24, w * (24 - centre.y) / 24, -w);
             const Corners& t = triangles[owner];
-            const double height = glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 8.0;  // over its longest side
+            const double height =
+                glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 8.0;  // over its longest side
             if (height < 0.1 || piece.p_px[0] == piece.p_px[1]) continue;
-            const double slant = 1.0 / std::fabs(glm::dot(shot.pieces.plane_normal_eye[piece.plane], glm::normalize(hit)));
+            const double slant =
+                1.0 / std::fabs(glm::dot(shot.pieces.plane_normal_eye[piece.plane], glm::normalize(hit)));
             expectNear(shot.shading.atPoint(owner, centre), hit, 0x1p-53 * 16 * 12 * 2 * slant / height);
             EXPECT_EQ(shot.shading.atPoint(owner, centre), shot.shading.closest(owner, centre));
             ++checked;
@@ -74,7 +76,8 @@ TEST(Shade, PerspectiveCorrectAlsoBehindTheEye) {
 
 TEST(Shade, ClosestPointOfATriangle) {
     // On the screen: (0, 0), (8, 0), (0, 8) px of an 8 x 8 film, at distance 1.
-    const Shot shot(test::makeScene({test::makeGeometry({{{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}})}), test::makePerspective(), 8, 8);
+    const Shot shot(test::makeScene({test::makeGeometry({{{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}})}),
+                    test::makePerspective(), 8, 8);
     EXPECT_EQ(shot.shading.closestPoint(0, {1.5, 2.5}), glm::dvec2(1.5, 2.5));
     EXPECT_EQ(shot.shading.closestPoint(0, {-3, -2}), glm::dvec2(0, 0));
     EXPECT_EQ(shot.shading.closestPoint(0, {3, -2}), glm::dvec2(3, 0));
@@ -88,7 +91,8 @@ TEST(Shade, RigByHand) {
 }
 
 TEST(Shade, FlatNormalsFaceTheViewerOnBothSides) {
-    Scene scene = test::makeScene({test::makeGeometry({{{{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}}}, {{{-1, -1, -2}, {0, 1, -2}, {1, -1, -2}}}})});
+    Scene scene = test::makeScene({test::makeGeometry(
+        {{{{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}}}, {{{-1, -1, -2}, {0, 1, -2}, {1, -1, -2}}}})});
     scene.materials[0].unlit = false;
     scene.materials[0].base_color = {0.5, 0.25, 1.0, 1.0};
     const Shot shot(scene, test::makePerspective(), 8, 8);
@@ -100,7 +104,8 @@ TEST(Shade, FlatNormalsFaceTheViewerOnBothSides) {
 }
 
 TEST(Shade, InterpolatesAndFlipsNormals) {
-    Geometry geometry = test::makeGeometry({{{{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}}, {{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}});
+    Geometry geometry = test::makeGeometry(
+        {{{{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}}, {{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}});
     const glm::dvec3 a(0, 0, 2), b(1, 0, 0), c(0, 3, 0);
     geometry.normal_world = {a, b, c, -a, -c, -b};
     Scene scene = test::makeScene({geometry});
@@ -114,7 +119,8 @@ TEST(Shade, InterpolatesAndFlipsNormals) {
 }
 
 TEST(Shade, ConstantOnlyWhereNothingVaries) {
-    Geometry geometry = test::makeGeometry({{{{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}}, {{{1, -1, -1}, {1, 1, -1}, {-1, -1, -1}}}});
+    Geometry geometry = test::makeGeometry(
+        {{{{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}}, {{{1, -1, -1}, {1, 1, -1}, {-1, -1, -1}}}});
     geometry.color = {{1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}};
     geometry.uv[0].assign(6, {0.25, 0.25});
     Scene scene = test::makeScene({geometry});
@@ -172,7 +178,7 @@ TEST(Texture, LevelsFollowTheFootprint) {
         return sampleTexture(texture, pyramid, {0.375, 0.375}, {{texels / 4, 0.0}, {0.0, 0.25}}).r;
     };
     EXPECT_EQ(at(1.0), 1.0);
-    EXPECT_EQ(at(4.0), 1.0 / 16);    // level 2: one texel
+    EXPECT_EQ(at(4.0), 1.0 / 16);  // level 2: one texel
     EXPECT_EQ(at(1000.0), 1.0 / 16);
     // Level 1 is 2 x 2 with 1/4 in the first; 0.375 * 2 - 0.5 = 0.25 of a texel towards the next.
     EXPECT_EQ(at(2.0), 0.25 * 0.75 * 0.75);

@@ -11,7 +11,8 @@ namespace edgewise::test {
 using Corners = std::array<glm::vec3, 3>;
 
 /// Triangles of one node; no vertex is shared between them but by position.
-inline Geometry makeGeometry(const std::vector<Corners>& triangles, const glm::dmat4& world = glm::dmat4(1.0)) {
+inline Geometry makeGeometry(const std::vector<Corners>& triangles,
+                             const glm::dmat4& world = glm::dmat4(1.0)) {
     Geometry geometry;
     for (const Corners& triangle : triangles) {
         const auto first = static_cast<std::uint32_t>(geometry.position_file.size());

@@ -56,10 +56,15 @@ inline std::string tinyPng(std::uint32_t width, std::uint32_t height, int bit_de
     appendBigEndian(header, height);
     header += {static_cast<char>(bit_depth), static_cast<char>(colour_type), 0, 0, 0};
     const std::size_t row_bytes = samples.size() / height;
-    for (std::size_t y = 0; y < height; ++y)
-        rows += std::string(1, 0) + samples.substr(y * row_bytes, row_bytes);
-    return "\x89PNG\r\n\x1a\n" + pngChunk("IHDR", header) + pngChunk("IDAT", zlibStored(rows)) +
-           pngChunk("IEND", "");
+    for (std::size_t y = 0; y < height; ++y) {
+        rows += '\0';
+        rows += samples.substr(y * row_bytes, row_bytes);
+    }
+    std::string png = "\x89PNG\r\n\x1a\n";
+    png += pngChunk("IHDR", header);
+    png += pngChunk("IDAT", zlibStored(rows));
+    png += pngChunk("IEND", "");
+    return png;
 }
 
 }  // namespace edgewise::test

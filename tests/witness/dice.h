@@ -27,6 +27,8 @@ class Dice {
     std::mt19937_64 engine_;
 };
 
-inline glm::dvec2 unitVector(double angle) { return {std::cos(angle), std::sin(angle)}; }
+inline glm::dvec2 unitVector(double angle) {
+    return {std::cos(angle), std::sin(angle)};
+}
 
 }  // namespace edgewise::witness

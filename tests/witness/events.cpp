@@ -29,7 +29,8 @@ class EventFinder {
         addCorners();
         for (const Boundary& boundary : boundaries_) addSupportCrossings(boundary);
         for (std::size_t k = 0; k < boundaries_.size(); ++k)
-            for (std::size_t l = k + 1; l < boundaries_.size(); ++l) addCrossing(boundaries_[k], boundaries_[l]);
+            for (std::size_t l = k + 1; l < boundaries_.size(); ++l)
+                addCrossing(boundaries_[k], boundaries_[l]);
         std::sort(found_.begin(), found_.end());
         found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
         return found_;
@@ -50,7 +51,8 @@ class EventFinder {
         const auto& triangles = scene_.triangles();
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             for (const Side& side : triangles[i].side)
-                if (lineMeetsSupport(side.line)) boundaries_.push_back({side.line, i, i, false, side.v_lo, side.v_hi});
+                if (lineMeetsSupport(side.line))
+                    boundaries_.push_back({side.line, i, i, false, side.v_lo, side.v_hi});
             for (std::size_t j = i + 1; j < triangles.size(); ++j) {
                 const Affine& line = scene_.nearer(i, j);
                 const Real lo = std::max(triangles[i].v_lo, triangles[j].v_lo);
@@ -119,7 +121,8 @@ class EventFinder {
     }
 
     void addPoint(Real u, Real v, std::size_t i, std::size_t j) {
-        if (std::fabs(v) < kernel_.radius && insideSupport(u, v) && !hidden(i, u, v) && (i == j || !hidden(j, u, v)))
+        if (std::fabs(v) < kernel_.radius && insideSupport(u, v) && !hidden(i, u, v) &&
+            (i == j || !hidden(j, u, v)))
             found_.push_back(v);
     }
 };

@@ -8,9 +8,10 @@
 
 namespace edgewise::witness {
 
-/// Ascending, from -radius to radius. Between two neighbours the order of the visible boundaries, of the kernel's knots
-/// and of the support's border along x stays as it is, so every owner's integral is a smooth function of v there.
-/// Rounding may misplace one by 1e-18 px: the adaptive outer integral sees the kink and pays for it.
+/// Ascending, from -radius to radius. Between two neighbours the order of the visible boundaries, of the
+/// kernel's knots and of the support's border along x stays as it is, so every owner's integral is a smooth
+/// function of v there. Rounding may misplace one by 1e-18 px: the adaptive outer integral sees the kink and
+/// pays for it.
 std::vector<Real> eventOrdinates(const LocalScene& scene, const Kernel& kernel);
 
 }  // namespace edgewise::witness

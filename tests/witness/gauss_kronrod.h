@@ -1,9 +1,9 @@
 // The 7/15 point Gauss-Kronrod rule in long double, with QUADPACK's error estimate.
 #pragma once
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 
@@ -49,8 +49,9 @@ struct Estimate {
     }
 };
 
-/// One application of the rule to values already taken at the nodes. QUADPACK's estimate (Piessens et al. 1983, qk15):
-/// the distance of the two rules, sharpened where it is small against the integrand's variation, never below rounding.
+/// One application of the rule to values already taken at the nodes. QUADPACK's estimate (Piessens et al.
+/// 1983, qk15): the distance of the two rules, sharpened where it is small against the integrand's variation,
+/// never below rounding.
 template <class ValueAt>
 Estimate applyRule(ValueAt value_at, Real half_length) {
     const KronrodRule& rule = KronrodRule::get();
@@ -72,7 +73,8 @@ Estimate applyRule(ValueAt value_at, Real half_length) {
     return {kronrod * half_length, error * half_length};
 }
 
-/// Integral of f over [a, b], halved until a part's estimate is below its share of `tolerance` or below 2^-40 of [a, b].
+/// Integral of f over [a, b], halved until a part's estimate is below its share of `tolerance` or below 2^-40
+/// of [a, b].
 template <class Function>
 Estimate integrate(const Function& f, Real a, Real b, Real tolerance, int depth = 40) {
     const KronrodRule& rule = KronrodRule::get();

@@ -19,7 +19,9 @@ namespace {
 using glm::dvec2;
 using Polygon = std::vector<dvec2>;
 
-double cross(dvec2 a, dvec2 b, dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+double cross(dvec2 a, dvec2 b, dvec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 /// The part of a convex polygon on the positive side of a -> b (Sutherland and Hodgman).
 Polygon clip(const Polygon& polygon, dvec2 a, dvec2 b) {
@@ -43,8 +45,8 @@ Polygon overlap(const ScreenTriangle& s, const ScreenTriangle& t) {
 }
 
 /// Least and greatest depth of s above t on their overlap.
-std::pair<double, double> depthRange(const ScreenScene& scene, const ScreenTriangle& s, const ScreenTriangle& t,
-                                     const Polygon& where) {
+std::pair<double, double> depthRange(const ScreenScene& scene, const ScreenTriangle& s,
+                                     const ScreenTriangle& t, const Polygon& where) {
     const DepthPlane &a = scene.planes[s.plane], &b = scene.planes[t.plane];
     double lo = INFINITY, hi = -INFINITY;
     for (dvec2 p : where) {
@@ -123,11 +125,12 @@ void countSides(const ScreenScene& scene, HardCases& cases) {
 }  // namespace
 
 HardCases& HardCases::operator+=(const HardCases& o) {
-    for (auto member : {&HardCases::triangles, &HardCases::piercing_pairs, &HardCases::depth_cycles,
-                        &HardCases::shared_sides, &HardCases::t_junctions, &HardCases::coplanar_overlaps,
-                        &HardCases::near_coincident_pairs, &HardCases::slivers, &HardCases::tiny, &HardCases::huge,
-                        &HardCases::horizontal, &HardCases::vertical, &HardCases::on_pixel_borders,
-                        &HardCases::through_samples, &HardCases::corners_on_samples})
+    for (auto member :
+         {&HardCases::triangles, &HardCases::piercing_pairs, &HardCases::depth_cycles,
+          &HardCases::shared_sides, &HardCases::t_junctions, &HardCases::coplanar_overlaps,
+          &HardCases::near_coincident_pairs, &HardCases::slivers, &HardCases::tiny, &HardCases::huge,
+          &HardCases::horizontal, &HardCases::vertical, &HardCases::on_pixel_borders,
+          &HardCases::through_samples, &HardCases::corners_on_samples})
         this->*member += o.*member;
     largest_fan = std::max(largest_fan, o.largest_fan);
     return *this;
@@ -143,11 +146,12 @@ HardCases countHardCases(const ScreenScene& scene) {
 }
 
 std::string toString(const HardCases& c) {
-    return fmt::format("triangles {} piercing {} cycles {} shared {} T {} coplanar {} near {} slivers {} tiny {} huge {} "
-                       "horizontal {} vertical {} borders {} through {} corners {} fan {}",
-                       c.triangles, c.piercing_pairs, c.depth_cycles, c.shared_sides, c.t_junctions, c.coplanar_overlaps,
-                       c.near_coincident_pairs, c.slivers, c.tiny, c.huge, c.horizontal, c.vertical, c.on_pixel_borders,
-                       c.through_samples, c.corners_on_samples, c.largest_fan);
+    return fmt::format(
+        "triangles {} piercing {} cycles {} shared {} T {} coplanar {} near {} slivers {} tiny {} huge {} "
+        "horizontal {} vertical {} borders {} through {} corners {} fan {}",
+        c.triangles, c.piercing_pairs, c.depth_cycles, c.shared_sides, c.t_junctions, c.coplanar_overlaps,
+        c.near_coincident_pairs, c.slivers, c.tiny, c.huge, c.horizontal, c.vertical, c.on_pixel_borders,
+        c.through_samples, c.corners_on_samples, c.largest_fan);
 }
 
 }  // namespace edgewise::witness

@@ -1,4 +1,5 @@
-// The judge's own kernels, written from the table "Filters" of the contract and normalised by nobody's formula.
+// The judge's own kernels, written from the table "Filters" of the contract and normalised by nobody's
+// formula.
 #pragma once
 
 #include <functional>
@@ -12,10 +13,10 @@ namespace edgewise::witness {
 
 struct Kernel {
     std::string name;
-    bool disk = false;         ///< support: the disk r < radius, or the square [-radius, radius]^2
-    Real radius = 1;           ///< px
-    std::vector<Real> knots;   ///< where a square kernel is not smooth inside, along either axis
-    bool apex = false;         ///< not smooth at the sample itself
+    bool disk = false;        ///< support: the disk r < radius, or the square [-radius, radius]^2
+    Real radius = 1;          ///< px
+    std::vector<Real> knots;  ///< where a square kernel is not smooth inside, along either axis
+    bool apex = false;        ///< not smooth at the sample itself
     std::function<Real(Real x, Real y)> shape;  ///< the table's formula inside the support, not normalised
 };
 

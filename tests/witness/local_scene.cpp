@@ -43,18 +43,24 @@ LocalTriangle makeLocal(const ScreenTriangle& triangle, glm::dvec2 sample_px) {
 }
 
 /// The largest value of an affine function on the square, and the smallest.
-Real most(const Affine& f, Real radius) { return f.c + (std::fabs(f.a) + std::fabs(f.b)) * radius; }
-Real least(const Affine& f, Real radius) { return f.c - (std::fabs(f.a) + std::fabs(f.b)) * radius; }
+Real most(const Affine& f, Real radius) {
+    return f.c + (std::fabs(f.a) + std::fabs(f.b)) * radius;
+}
+Real least(const Affine& f, Real radius) {
+    return f.c - (std::fabs(f.a) + std::fabs(f.b)) * radius;
+}
 
 bool meets(const LocalTriangle& t, Real radius) {
     Real lo = t.corner[0][0], hi = lo;
     for (const auto& p : t.corner) lo = std::min(lo, p[0]), hi = std::max(hi, p[0]);
     if (lo > radius || hi < -radius || t.v_lo > radius || t.v_hi < -radius) return false;
-    return std::all_of(t.side.begin(), t.side.end(), [&](const Side& s) { return most(s.line, radius) >= 0; });
+    return std::all_of(t.side.begin(), t.side.end(),
+                       [&](const Side& s) { return most(s.line, radius) >= 0; });
 }
 
 bool covers(const LocalTriangle& t, Real radius) {
-    return std::all_of(t.side.begin(), t.side.end(), [&](const Side& s) { return least(s.line, radius) > 0; });
+    return std::all_of(t.side.begin(), t.side.end(),
+                       [&](const Side& s) { return least(s.line, radius) > 0; });
 }
 
 }  // namespace
@@ -106,7 +112,8 @@ Owner ownerAt(const ScreenScene& scene, glm::dvec2 point_px) {
         bool inside = true;
         for (int k = 0; k < 3; ++k) {
             const glm::dvec2 a = t.p_px[k], b = t.p_px[(k + 1) % 3];
-            const Quad cross = (Quad(b.x) - a.x) * (Quad(point_px.y) - a.y) - (Quad(b.y) - a.y) * (Quad(point_px.x) - a.x);
+            const Quad cross =
+                (Quad(b.x) - a.x) * (Quad(point_px.y) - a.y) - (Quad(b.y) - a.y) * (Quad(point_px.x) - a.x);
             inside = inside && cross >= 0;
         }
         if (!inside) continue;

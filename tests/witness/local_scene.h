@@ -37,8 +37,8 @@ struct LocalTriangle {
 
 class LocalScene {
   public:
-    /// Keeps what meets the square of half width `radius` around the sample and is not wholly behind a triangle
-    /// that covers that square.
+    /// Keeps what meets the square of half width `radius` around the sample and is not wholly behind a
+    /// triangle that covers that square.
     LocalScene(const ScreenScene& scene, glm::dvec2 sample_px, Real radius);
 
     const std::vector<LocalTriangle>& triangles() const { return triangles_; }

@@ -14,7 +14,9 @@
 namespace edgewise::witness {
 namespace {
 
-Real local(double grid, double rest, double sample) { return Real(Quad(grid) - sample + rest); }
+Real local(double grid, double rest, double sample) {
+    return Real(Quad(grid) - sample + rest);
+}
 
 /// How many times each owner is in front, counted from the labels alone: one owner once, all others never.
 class Front {
@@ -34,14 +36,27 @@ class Front {
     }
 };
 
-/// The owner that is left of all crossings: of the labels, the one not entered before it is left.
-Owner leftmost(const std::vector<MapCrossing>& crossings) {
+/// Both sides compute u = u_0 + slope v with about eight roundings of terms up to (1 + |slope|) reach.
+Real roundingOf(Real reach, Real slope) {
+    return 8 * reach * (1 + std::fabs(slope)) * 0x1p-64L;
+}
+
+/// The owner that is left of all crossings. Crossings closer than rounding may stand in any order: of a
+/// cluster's labels it is the one that is left more often than entered; a cluster that changes nothing leaves
+/// the question to the next.
+Owner leftmost(const std::vector<MapCrossing>& crossings, Real radius, Owner otherwise) {
     std::map<Owner, int> net;
-    for (std::size_t k = 0; k < crossings.size() && (k == 0 || crossings[k].u == crossings[0].u); ++k)
-        --net[crossings[k].left], ++net[crossings[k].right];
+    Real end = crossings.front().u;
+    for (const MapCrossing& c : crossings) {
+        if (c.u > end)
+            for (const auto& [owner, count] : net)
+                if (count < 0) return owner;
+        --net[c.left], ++net[c.right];
+        end = std::max(end, c.u + 2 * roundingOf(std::max(radius, std::fabs(c.u)), c.slope));
+    }
     for (const auto& [owner, count] : net)
         if (count < 0) return owner;
-    return crossings.front().left;
+    return otherwise;
 }
 
 Owner runOwner(const std::vector<Run>& runs, Real u) {
@@ -104,7 +119,7 @@ void MapScan::compare(const LocalScene& scene, Real v, Real height, Real radius,
     for (const MapCrossing& c : crossings)
         if (std::fabs(c.u) < radius) cuts.push_back(c.u);
     std::sort(cuts.begin(), cuts.end());
-    Front front(crossings.empty() ? runs.front().owner : leftmost(crossings));
+    Front front(crossings.empty() ? runs.front().owner : leftmost(crossings, radius, runs.front().owner));
     std::size_t next = 0;
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         const Real length = cuts[k + 1] - cuts[k], middle = (cuts[k] + cuts[k + 1]) / 2;
@@ -115,17 +130,18 @@ void MapScan::compare(const LocalScene& scene, Real v, Real height, Real radius,
         const Real before = next > 0 ? std::fabs(crossings[next - 1].slope) : 0;
         const Real after = next < crossings.size() ? std::fabs(crossings[next].slope) : 0;
         const Real steepest = 1 + std::max(before, after);
-        // Both sides compute u = u_0 + slope v with about eight roundings of terms up to (1 + |slope|) radius.
-        const Real rounding = 8 * radius * steepest * 0x1p-64L;
+        const Real rounding = roundingOf(radius, steepest - 1);
         verdict.worst_offset_px = std::max(verdict.worst_offset_px, length / steepest);
         if (length <= rounding) continue;
         (front.single() ? verdict.disagreements : verdict.broken) += 1;
         verdict.widest_px = std::max(verdict.widest_px, length);
         verdict.wrong_px2 += length * height;
         if (verdict.first.empty())
-            verdict.first = fmt::format("along {}: v = {:.20g} (band {:.2g} px), u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in truth, {} on the map",
-                                        exchanged_ ? "y" : "x", double(v), double(height), double(cuts[k]), double(cuts[k + 1]), double(length), truth,
-                                        front.single() ? fmt::format("{}", front.owner()) : "no single one");
+            verdict.first = fmt::format(
+                "along {}: v = {:.20g} (band {:.2g} px), u in [{:.20g}, {:.20g}], length {:.3g}: owner {} in "
+                "truth, {} on the map",
+                exchanged_ ? "y" : "x", double(v), double(height), double(cuts[k]), double(cuts[k + 1]),
+                double(length), truth, front.single() ? fmt::format("{}", front.owner()) : "no single one");
     }
 }
 
@@ -143,9 +159,11 @@ ScanVerdict compareMap(const ScreenScene& scene, const VisibleMap& map, glm::dve
         const std::vector<Real> events = eventOrdinates(truth, square);
         for (std::size_t k = 0; k + 1 < events.size(); ++k)
             if (events[k + 1] - events[k] > 0x1p-50L)  // two names of one event
-                scan.compare(truth, (events[k] + events[k + 1]) / 2, events[k + 1] - events[k], radius, verdict);
+                scan.compare(truth, (events[k] + events[k + 1]) / 2, events[k + 1] - events[k], radius,
+                             verdict);
         for (int k = 0; k < random_lines; ++k)
-            scan.compare(truth, dice.uniform(-double(radius), double(radius)), 2 * radius / random_lines, radius, verdict);
+            scan.compare(truth, dice.uniform(-double(radius), double(radius)), 2 * radius / random_lines,
+                         radius, verdict);
     }
     return verdict;
 }

@@ -9,7 +9,10 @@
 
 namespace edgewise::witness {
 
-enum class Axes { kAsTheyAre, kExchanged };  ///< exchanged: scan along y, so that horizontal segments count too
+enum class Axes {
+    kAsTheyAre,
+    kExchanged
+};  ///< exchanged: scan along y, so that horizontal segments count too
 
 /// Where a scanline meets a segment of the map.
 struct MapCrossing {
@@ -20,12 +23,13 @@ struct MapCrossing {
 
 struct ScanVerdict {
     std::size_t scanlines = 0, crossings = 0;
-    std::size_t broken = 0;      ///< places where the labels do not leave exactly one owner
+    std::size_t broken = 0;         ///< places where the labels do not leave exactly one owner
     std::size_t disagreements = 0;  ///< intervals of another owner, longer than rounding explains
-    Real widest_px = 0;          ///< the longest of these
-    Real wrong_px2 = 0;          ///< what they come to: length times the height of the band that the line stands for
-    Real worst_offset_px = 0;    ///< the largest disagreement of all, measured across the steepest boundary beside it
-    std::string first;           ///< the first thing wrong, in words
+    Real widest_px = 0;             ///< the longest of these
+    Real wrong_px2 = 0;  ///< what they come to: length times the height of the band that the line stands for
+    Real worst_offset_px =
+        0;              ///< the largest disagreement of all, measured across the steepest boundary beside it
+    std::string first;  ///< the first thing wrong, in words
     void add(const ScanVerdict& other);
     bool good() const { return broken == 0 && disagreements == 0; }
 };

@@ -56,15 +56,17 @@ struct Maker {
             const dvec2 a = middle - length * along, b = middle + length * along;
             const auto z = [&](dvec2 p) { return glm::dot(p - middle, dvec2(tilt.dz_dx, tilt.dz_dy)); };
             const std::array<dvec2, 4> p = {a - half * out, b - half * out, b + half * out, a + half * out};
-            const auto plane = builder.addPlane({lift(p[0], z(p[0])), lift(p[1], z(p[1])), lift(p[2], z(p[2]))});
+            const auto plane =
+                builder.addPlane({lift(p[0], z(p[0])), lift(p[1], z(p[1])), lift(p[2], z(p[2]))});
             quad(p, plane, dice.coin());
         }
     }
 
     void torus(bool keep_back_faces) {
         constexpr int kAround = 10, kAcross = 6;
-        const glm::dmat4 turned = glm::rotate(glm::dmat4(1), dice.angle(), glm::normalize(dvec3(
-            dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(0.1, 1))));
+        const glm::dmat4 turned = glm::rotate(
+            glm::dmat4(1), dice.angle(),
+            glm::normalize(dvec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(0.1, 1))));
         const dvec2 centre = dice.around(sample(), 0.5);
         std::array<std::array<dvec3, kAcross>, kAround> p;
         for (int i = 0; i < kAround; ++i)
@@ -91,7 +93,8 @@ struct Maker {
         std::vector<dvec3> rim;
         for (int k = 0; k < wedges; ++k) {
             const double angle = start + 2 * std::numbers::pi * (k + dice.uniform(0, 0.8)) / wedges;
-            rim.push_back(lift(toGrid(hub + dice.uniform(0.4, 3) * unitVector(angle)), flat ? 0.5 : dice.uniform(0, 1)));
+            rim.push_back(lift(toGrid(hub + dice.uniform(0.4, 3) * unitVector(angle)),
+                               flat ? 0.5 : dice.uniform(0, 1)));
         }
         for (int k = 0; k < wedges; ++k)
             if (dice.uniform(0, 1) >= skip) builder.add({lift(hub, 0.5), rim[k], rim[(k + 1) % wedges]});
@@ -112,7 +115,8 @@ struct Maker {
 
     void duplicates() {
         const auto plane = builder.addPlane(randomPlane(0.5));
-        const dvec2 at = dice.around(sample(), 0.4), x = dice.uniform(1, 2) * unitVector(dice.angle()), y(-x.y, x.x);
+        const dvec2 at = dice.around(sample(), 0.4), x = dice.uniform(1, 2) * unitVector(dice.angle()),
+                    y(-x.y, x.x);
         for (int copy = 0; copy < 3; ++copy) quad({at - x, at - y, at + x, at + y}, plane, copy & 1);
         for (int decal = 0; decal < 3; ++decal) {
             const dvec2 p = dice.around(at, 0.6), u = 0.4 * unitVector(dice.angle()), v(-u.y, u.x);
@@ -125,15 +129,18 @@ struct Maker {
         const dvec2 a = dice.around(sample(), 2.5), along = dice.uniform(0.5, 6) * unitVector(dice.angle());
         const dvec2 across = dice.magnitude(-5, -2) / glm::length(along) * dvec2(-along.y, along.x);
         const double z = dice.uniform(0.6, 1);
-        builder.add({lift(a, z), lift(a + along, z + dice.uniform(-.1, .1)), lift(a + dice.uniform(0, 1) * along + across, z)});
+        builder.add({lift(a, z), lift(a + along, z + dice.uniform(-.1, .1)),
+                     lift(a + dice.uniform(0, 1) * along + across, z)});
     }
 
     void axisAligned() {
         for (int k = 0; k < 6; ++k) {
             const dvec2 lo = dvec2(pixel) + 0.5 * dvec2(dice.integer(-4, 2), dice.integer(-4, 2));
             const dvec2 size = 0.5 * dvec2(dice.integer(1, 6), dice.integer(1, 6));
-            rectangle(lo, lo + size, builder.addPlane(dice.coin() ? randomPlane(dice.uniform(0, 1))
-                                                                  : DepthPlane{0, 0, dice.integer(1, 3) * 0.25}), dice.coin());
+            rectangle(lo, lo + size,
+                      builder.addPlane(dice.coin() ? randomPlane(dice.uniform(0, 1))
+                                                   : DepthPlane{0, 0, dice.integer(1, 3) * 0.25}),
+                      dice.coin());
         }
     }
 
@@ -142,11 +149,13 @@ struct Maker {
         for (int k = 0; k < 6; ++k) {
             const double apart = k == 0 ? 0 : dice.magnitude(-13, -6);
             const auto plane = builder.addPlane(DepthPlane{base.dz_dx + apart * dice.uniform(-1, 1),
-                base.dz_dy + apart * dice.uniform(-1, 1), base.z_anchor + apart * dice.uniform(-1, 1)});
+                                                           base.dz_dy + apart * dice.uniform(-1, 1),
+                                                           base.z_anchor + apart * dice.uniform(-1, 1)});
             const dvec2 p = dice.around(sample(), 0.5);
             const double start = dice.angle(), size = dice.uniform(1, 4);
             builder.addOnPlane({p + size * unitVector(start), p + size * unitVector(start + 2.1),
-                                p + size * unitVector(start + 4.2)}, plane);
+                                p + size * unitVector(start + 4.2)},
+                               plane);
         }
     }
 
@@ -165,7 +174,8 @@ struct Maker {
             const dvec2 through = dice.around(sample(), 1.5);
             const double angle = dice.angle();
             const dvec2 far[2] = {unitVector(angle), unitVector(angle + dice.uniform(0.3, 2.9))};
-            builder.add({lift(through, dice.uniform(0, 1)), lift(through + dice.magnitude(2, 5.99) * far[0], dice.uniform(-50, 50)),
+            builder.add({lift(through, dice.uniform(0, 1)),
+                         lift(through + dice.magnitude(2, 5.99) * far[0], dice.uniform(-50, 50)),
                          lift(through + dice.magnitude(2, 5.99) * far[1], dice.uniform(-50, 50))});
         }
     }
@@ -181,23 +191,36 @@ struct Maker {
 
 void fill(Maker& make, SceneKind kind, int extent) {
     switch (kind) {
-        case SceneKind::kPiercing: return make.triangles(10, 1.5, 2);
-        case SceneKind::kCyclic: return make.ring();
-        case SceneKind::kClosedMesh: return make.torus(false);
-        case SceneKind::kClosedMeshBothSides: return make.torus(true);
-        case SceneKind::kFan: return make.fan(make.dice.integer(3, 12), make.specialPoint(), make.dice.coin(), 0.15);
-        case SceneKind::kTJunctions: return make.bricks();
-        case SceneKind::kCoplanarDuplicates: return make.duplicates();
+        case SceneKind::kPiercing:
+            return make.triangles(10, 1.5, 2);
+        case SceneKind::kCyclic:
+            return make.ring();
+        case SceneKind::kClosedMesh:
+            return make.torus(false);
+        case SceneKind::kClosedMeshBothSides:
+            return make.torus(true);
+        case SceneKind::kFan:
+            return make.fan(make.dice.integer(3, 12), make.specialPoint(), make.dice.coin(), 0.15);
+        case SceneKind::kTJunctions:
+            return make.bricks();
+        case SceneKind::kCoplanarDuplicates:
+            return make.duplicates();
         case SceneKind::kSlivers:
             make.triangles(2, 1, 3);
             for (int k = 0; k < 10; ++k) make.sliver();
             return;
-        case SceneKind::kAxisAligned: return make.axisAligned();
-        case SceneKind::kNearCoincident: return make.nearCoincident();
-        case SceneKind::kTiny: return make.tiny();
-        case SceneKind::kHuge: return make.huge();
-        case SceneKind::kStar: return make.fan(extent, make.specialPoint(), true, 0);
-        case SceneKind::kMixed: return make.mixed();
+        case SceneKind::kAxisAligned:
+            return make.axisAligned();
+        case SceneKind::kNearCoincident:
+            return make.nearCoincident();
+        case SceneKind::kTiny:
+            return make.tiny();
+        case SceneKind::kHuge:
+            return make.huge();
+        case SceneKind::kStar:
+            return make.fan(extent, make.specialPoint(), true, 0);
+        case SceneKind::kMixed:
+            return make.mixed();
     }
 }
 
@@ -210,8 +233,20 @@ std::vector<SceneKind> allSceneKinds() {
 }
 
 std::string nameOf(SceneKind kind) {
-    constexpr std::array kNames = {"piercing", "cyclic", "closed_mesh", "closed_mesh_both_sides", "fan", "t_junctions",
-        "coplanar_duplicates", "slivers", "axis_aligned", "near_coincident", "tiny", "huge", "star", "mixed"};
+    constexpr std::array kNames = {"piercing",
+                                   "cyclic",
+                                   "closed_mesh",
+                                   "closed_mesh_both_sides",
+                                   "fan",
+                                   "t_junctions",
+                                   "coplanar_duplicates",
+                                   "slivers",
+                                   "axis_aligned",
+                                   "near_coincident",
+                                   "tiny",
+                                   "huge",
+                                   "star",
+                                   "mixed"};
     return kNames[std::size_t(kind)];
 }
 
@@ -222,7 +257,8 @@ RandomScene makeRandomScene(SceneKind kind, std::uint64_t seed, int extent) {
     Maker make{dice, pixel, SceneBuilder(anchor)};
     fill(make, kind, extent);
     RandomScene result{kind, seed, make.builder.scene(), pixel, {pixel}};
-    for (int k = 0; k < 3; ++k) result.pixels.push_back(pixel + glm::ivec2(dice.integer(-2, 2), dice.integer(-2, 2)));
+    for (int k = 0; k < 3; ++k)
+        result.pixels.push_back(pixel + glm::ivec2(dice.integer(-2, 2), dice.integer(-2, 2)));
     return result;
 }
 

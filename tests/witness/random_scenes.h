@@ -34,8 +34,8 @@ struct RandomScene {
     SceneKind kind;
     std::uint64_t seed;
     ScreenScene scene;
-    glm::ivec2 centre;                ///< the pixel that the scene is around
-    std::vector<glm::ivec2> pixels;   ///< worth judging: the centre and some neighbours
+    glm::ivec2 centre;               ///< the pixel that the scene is around
+    std::vector<glm::ivec2> pixels;  ///< worth judging: the centre and some neighbours
 };
 
 /// The same for the same seed on every machine. `extent` is the number of edges of a star.

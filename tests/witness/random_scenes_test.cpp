@@ -40,7 +40,8 @@ TEST_P(EveryScene, KeepsTheRules) {
 
 TEST_P(EveryScene, HoldsItsHardCases) {
     HardCases met;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) met += countHardCases(makeRandomScene(GetParam(), seed).scene);
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+        met += countHardCases(makeRandomScene(GetParam(), seed).scene);
     fmt::print("{}, seeds 1 to {}: {}\n", nameOf(GetParam()), kSeeds, toString(met));
     using Member = std::size_t HardCases::*;
     const std::map<SceneKind, std::vector<Member>> promised = {
@@ -52,14 +53,16 @@ TEST_P(EveryScene, HoldsItsHardCases) {
         {SceneKind::kTJunctions, {&HardCases::t_junctions, &HardCases::shared_sides}},
         {SceneKind::kCoplanarDuplicates, {&HardCases::coplanar_overlaps}},
         {SceneKind::kSlivers, {&HardCases::slivers}},
-        {SceneKind::kAxisAligned, {&HardCases::horizontal, &HardCases::vertical, &HardCases::on_pixel_borders,
-                                   &HardCases::through_samples, &HardCases::corners_on_samples}},
+        {SceneKind::kAxisAligned,
+         {&HardCases::horizontal, &HardCases::vertical, &HardCases::on_pixel_borders,
+          &HardCases::through_samples, &HardCases::corners_on_samples}},
         {SceneKind::kNearCoincident, {&HardCases::near_coincident_pairs, &HardCases::piercing_pairs}},
         {SceneKind::kTiny, {&HardCases::tiny}},
         {SceneKind::kHuge, {&HardCases::huge, &HardCases::piercing_pairs}},
         {SceneKind::kStar, {&HardCases::largest_fan, &HardCases::corners_on_samples}},
-        {SceneKind::kMixed, {&HardCases::piercing_pairs, &HardCases::near_coincident_pairs, &HardCases::slivers,
-                             &HardCases::horizontal, &HardCases::corners_on_samples}}};
+        {SceneKind::kMixed,
+         {&HardCases::piercing_pairs, &HardCases::near_coincident_pairs, &HardCases::slivers,
+          &HardCases::horizontal, &HardCases::corners_on_samples}}};
     for (Member member : promised.at(GetParam())) EXPECT_GE(met.*member, 10u);
 }
 
@@ -68,7 +71,8 @@ TEST_P(EveryScene, IsJudgedToItsTarget) {
     std::size_t owners = 0, pieces = 0;
     const std::vector<Prefilter> filters = allPrefilters();
     for (const char* name : {"box", "gaussian", "bspline"}) {
-        const auto filter = std::find_if(filters.begin(), filters.end(), [&](const auto& f) { return f.name == name; });
+        const auto filter =
+            std::find_if(filters.begin(), filters.end(), [&](const auto& f) { return f.name == name; });
         const ScanlineQuadrature quadrature(kernelLike(*filter));
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             const RandomScene random = makeRandomScene(GetParam(), seed, 40);
@@ -79,7 +83,8 @@ TEST_P(EveryScene, IsJudgedToItsTarget) {
             const Judgement swapped = quadrature.judge(swapAxes(random.scene), {sample.y, sample.x});
             for (const auto& [owner, w] : judged.weight) {
                 const Real difference = std::fabs(w - swapped.of(owner));
-                EXPECT_LE(difference, judged.error + swapped.error) << name << " seed " << seed << " owner " << owner;
+                EXPECT_LE(difference, judged.error + swapped.error)
+                    << name << " seed " << seed << " owner " << owner;
                 worst_swap = std::max(worst_swap, difference);
                 owners += w != 0;
             }
@@ -89,9 +94,11 @@ TEST_P(EveryScene, IsJudgedToItsTarget) {
             pieces = std::max(pieces, judged.pieces);
         }
     }
-    fmt::print("{}: estimate <= {:.1e}, |sum - 1| <= {:.1e}, |swap| <= {:.1e}, {} owners, <= {} pieces, slowest {:.0f} ms\n",
-               nameOf(GetParam()), double(worst_error), double(worst_sum), double(worst_swap), owners, pieces,
-               double(slowest) * 1e3);
+    fmt::print(
+        "{}: estimate <= {:.1e}, |sum - 1| <= {:.1e}, |swap| <= {:.1e}, {} owners, <= {} pieces, slowest "
+        "{:.0f} ms\n",
+        nameOf(GetParam()), double(worst_error), double(worst_sum), double(worst_swap), owners, pieces,
+        double(slowest) * 1e3);
     EXPECT_LT(worst_error, 1e-13L);
 }
 

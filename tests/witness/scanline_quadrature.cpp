@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kNodes = KronrodRule::kNodes;
 
-/// The outer integral of one sample. Its variable t is v for a square, and the angle with v = R sin t for a disk, where
-/// the chord R cos t is smooth up to the poles.
+/// The outer integral of one sample. Its variable t is v for a square, and the angle with v = R sin t for a
+/// disk, where the chord R cos t is smooth up to the poles.
 class OuterIntegral {
   public:
     OuterIntegral(const LocalScene& scene, const Kernel& kernel, Real tolerance)
@@ -110,7 +110,8 @@ Real Judgement::sum() const {
     return total;
 }
 
-ScanlineQuadrature::ScanlineQuadrature(Kernel kernel, Real accuracy) : kernel_(std::move(kernel)), accuracy_(accuracy) {
+ScanlineQuadrature::ScanlineQuadrature(Kernel kernel, Real accuracy)
+    : kernel_(std::move(kernel)), accuracy_(accuracy) {
     const Real size = kernel_.radius * kernel_.radius;
     const Judgement whole = integral({}, {0, 0}, kernel_, accuracy_ * size * 0x1p-10L);
     normaliser_ = {whole.of(kBackground), whole.error};

@@ -25,7 +25,8 @@ struct Judgement {
 /// Integrals of one kernel over the visible parts of scenes; made once a kernel.
 class ScanlineQuadrature {
   public:
-    /// Normalises by its own integral over the empty scene. `accuracy` is aimed at, `Judgement::error` tells what came.
+    /// Normalises by its own integral over the empty scene. `accuracy` is aimed at, `Judgement::error` tells
+    /// what came.
     explicit ScanlineQuadrature(Kernel kernel, Real accuracy = 1e-14L);
 
     Judgement judge(const ScreenScene& scene, glm::dvec2 sample_px) const;

@@ -44,14 +44,22 @@ Prefilter named(const std::string& name) {
 TEST(Witness, NormalisersAreTheKnownIntegrals) {
     const Real pi = std::numbers::pi_v<Real>;
     const std::map<std::string, Real> known = {
-        {"box", 1}, {"disk", pi / 4}, {"tent", 1}, {"cone", pi / 3}, {"gaussian", 2 * pi / 2.25L * (1 - std::exp(-4.5L))},
+        {"box", 1},
+        {"disk", pi / 4},
+        {"tent", 1},
+        {"cone", pi / 3},
+        {"gaussian", 2 * pi / 2.25L * (1 - std::exp(-4.5L))},
         {"gaussian-separable", 2 * pi / 2.25L * std::pow(std::erf(3 / std::sqrt(2.0L)), 2)},
-        {"bspline", 1}, {"mitchell", 1}, {"catmull-rom", 1}, {"poly:1,-2,1", 4 * pi / 3}};
+        {"bspline", 1},
+        {"mitchell", 1},
+        {"catmull-rom", 1},
+        {"poly:1,-2,1", 4 * pi / 3}};
     for (const auto& [name, integral] : known) {
         const Estimate ours = ScanlineQuadrature(kernelLike(named(name))).normaliser();
         // Gaussian sigmas are the doubles nearest to 2/3: the integral moves by twice that rounding.
         const Real granted = name.starts_with("gaussian") ? 2 * integral * 0x1p-53L : 0;
-        const Real cubic_granted = name == "mitchell" ? 8 * 0x1p-53L : 0;  // B and C likewise, weights <= 2 each axis
+        const Real cubic_granted =
+            name == "mitchell" ? 8 * 0x1p-53L : 0;  // B and C likewise, weights <= 2 each axis
         EXPECT_LE(std::fabs(ours.value - integral), ours.error + granted + cubic_granted) << name;
         EXPECT_LT(ours.error, 1e-15L) << name;
     }
@@ -64,7 +72,8 @@ TEST(Witness, HalfPlanesAreKnownByHand) {
         {"box", 0.5L + t},
         {"tent", 0.5L + t - t * t / 2},
         {"disk", 0.5L + (std::asin(2 * t) + 2 * t * std::sqrt(1 - 4 * t * t)) / std::numbers::pi_v<Real>},
-        {"gaussian-separable", 0.5L + std::erf(t / (2.0L / 3 * std::sqrt(2.0L))) / (2 * std::erf(3 / std::sqrt(2.0L)))}};
+        {"gaussian-separable",
+         0.5L + std::erf(t / (2.0L / 3 * std::sqrt(2.0L))) / (2 * std::erf(3 / std::sqrt(2.0L)))}};
     for (const auto& [name, weight] : left) {
         const Judgement judged = ScanlineQuadrature(kernelLike(named(name))).judge(leftOf(x), {0, 0});
         const Real granted = name.starts_with("gaussian") ? 0x1p-53L : 0;
@@ -74,9 +83,10 @@ TEST(Witness, HalfPlanesAreKnownByHand) {
 
 TEST(Witness, TriangleAreasAreKnownByHand) {
     SceneBuilder builder;
-    builder.add({{{10.25, 20.25, 0}, {10.75, 20.25, 0}, {10.25, 20.75, 0}}});   // 1/8, farther
-    builder.add({{{10.25, 20.25, 1}, {10.5, 20.25, 1}, {10.25, 20.5, 1}}});     // 1/32, nearer
-    const Judgement judged = ScanlineQuadrature(kernelLike(named("box"))).judge(builder.scene(), {10.5, 20.5});
+    builder.add({{{10.25, 20.25, 0}, {10.75, 20.25, 0}, {10.25, 20.75, 0}}});  // 1/8, farther
+    builder.add({{{10.25, 20.25, 1}, {10.5, 20.25, 1}, {10.25, 20.5, 1}}});    // 1/32, nearer
+    const Judgement judged =
+        ScanlineQuadrature(kernelLike(named("box"))).judge(builder.scene(), {10.5, 20.5});
     EXPECT_LE(std::fabs(judged.of(1) - 1.0L / 32), judged.error);
     EXPECT_LE(std::fabs(judged.of(0) - 3.0L / 32), judged.error);
     EXPECT_LE(std::fabs(judged.of(kBackground) - 7.0L / 8), judged.error);
@@ -95,7 +105,8 @@ TEST(Witness, PiercingTrianglesMeetWhereTheirDepthsAreEqual) {
 
 TEST(Witness, EqualDepthGoesToTheLowerIndex) {
     SceneBuilder builder;
-    const auto plane = builder.addPlane(DepthPlane{0.1, 0.2, 0.3}), copy = builder.addPlane(DepthPlane{0.1, 0.2, 0.3});
+    const auto plane = builder.addPlane(DepthPlane{0.1, 0.2, 0.3}),
+               copy = builder.addPlane(DepthPlane{0.1, 0.2, 0.3});
     builder.addOnPlane({{{-1, -1}, {0.25, -1}, {-1, 3}}}, plane);
     builder.addOnPlane({{{-kFar, -kFar}, {kFar, -kFar}, {0, kFar}}}, copy);
     builder.addOnPlane({{{-kFar, -kFar}, {kFar, -kFar}, {0, kFar}}}, plane);
@@ -129,9 +140,11 @@ TEST_P(EveryFilter, WeightsSumToOneAndAxesMayBeExchanged) {
         scanlines += judged.scanlines + swapped.scanlines;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    fmt::print("{}: |sum - 1| <= {:.1e}, |swap| <= {:.1e}, estimate <= {:.1e}, {:.1f} ms a judgement, {} scanlines\n",
-               GetParam().name, double(worst_sum), double(worst_swap), double(worst_error), seconds.count() / 12 * 1e3,
-               scanlines / 12);
+    fmt::print(
+        "{}: |sum - 1| <= {:.1e}, |swap| <= {:.1e}, estimate <= {:.1e}, {:.1f} ms a judgement, {} "
+        "scanlines\n",
+        GetParam().name, double(worst_sum), double(worst_swap), double(worst_error),
+        seconds.count() / 12 * 1e3, scanlines / 12);
     EXPECT_LT(worst_error, 1e-13L);
     EXPECT_GT(owners, 12u);
 }
@@ -161,7 +174,8 @@ TEST_P(EveryFilter, DiceAgree) {
         const double standard_error = std::sqrt((moments.second / kThrows - mean * mean) / kThrows);
         worst = std::max(worst, std::fabs(mean - double(judged.of(owner))) / standard_error);
     }
-    fmt::print("{}: {} owners within {:.2f} standard errors, seed {}\n", GetParam().name, sums.size(), worst, seed);
+    fmt::print("{}: {} owners within {:.2f} standard errors, seed {}\n", GetParam().name, sums.size(), worst,
+               seed);
     EXPECT_GE(sums.size(), 3u);
     EXPECT_LT(worst, 4.5);  // 7e-6 a weight by chance, and the seed is fixed
 }

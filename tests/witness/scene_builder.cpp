@@ -13,8 +13,12 @@ Quad cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 
 }  // namespace
 
-double toGrid(double px) { return std::nearbyint(px / kGridPx) * kGridPx; }
-glm::dvec2 toGrid(glm::dvec2 px) { return {toGrid(px.x), toGrid(px.y)}; }
+double toGrid(double px) {
+    return std::nearbyint(px / kGridPx) * kGridPx;
+}
+glm::dvec2 toGrid(glm::dvec2 px) {
+    return {toGrid(px.x), toGrid(px.y)};
+}
 
 int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const Quad turn = cross(a, b, c);
@@ -30,8 +34,10 @@ std::uint32_t SceneBuilder::addPlane(const std::array<glm::dvec3, 3>& points) {
     const auto px = [&](int k) { return toGrid(glm::dvec2(points[k].x, points[k].y)); };
     const Quad area = cross(px(0), px(1), px(2));
     if (area == 0) return addPlane(DepthPlane{0, 0, points[0].z});
-    const Quad x1 = Quad(px(1).x) - px(0).x, y1 = Quad(px(1).y) - px(0).y, z1 = Quad(points[1].z) - points[0].z;
-    const Quad x2 = Quad(px(2).x) - px(0).x, y2 = Quad(px(2).y) - px(0).y, z2 = Quad(points[2].z) - points[0].z;
+    const Quad x1 = Quad(px(1).x) - px(0).x, y1 = Quad(px(1).y) - px(0).y,
+               z1 = Quad(points[1].z) - points[0].z;
+    const Quad x2 = Quad(px(2).x) - px(0).x, y2 = Quad(px(2).y) - px(0).y,
+               z2 = Quad(points[2].z) - points[0].z;
     const Quad dz_dx = (z1 * y2 - z2 * y1) / area, dz_dy = (x1 * z2 - x2 * z1) / area;
     const Quad z = points[0].z + dz_dx * (Quad(scene_.anchor_px.x) - px(0).x) +
                    dz_dy * (Quad(scene_.anchor_px.y) - px(0).y);

@@ -24,7 +24,8 @@ class SceneBuilder {
     std::uint32_t addPlane(const std::array<glm::dvec3, 3>& points);
     std::uint32_t addPlane(const DepthPlane& plane);
 
-    /// A triangle with the next owner index; false where its corners are collinear on the grid (the index is spent).
+    /// A triangle with the next owner index; false where its corners are collinear on the grid (the index is
+    /// spent).
     bool add(const std::array<glm::dvec3, 3>& points);
     bool addOnPlane(const std::array<glm::dvec2, 3>& points_px, std::uint32_t plane);
 
@@ -34,7 +35,8 @@ class SceneBuilder {
   private:
     std::uint32_t weld(glm::dvec2 p_px, double depth);
     double depthAt(std::uint32_t plane, glm::dvec2 p_px) const;
-    bool addCorners(const std::array<glm::dvec2, 3>& p_px, const std::array<double, 3>& depth, std::uint32_t plane);
+    bool addCorners(const std::array<glm::dvec2, 3>& p_px, const std::array<double, 3>& depth,
+                    std::uint32_t plane);
 
     ScreenScene scene_;
     Owner next_owner_ = 0;

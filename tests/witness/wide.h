@@ -3,7 +3,8 @@
 
 namespace edgewise::witness {
 
-using Real = long double;                    ///< 64 bit mantissa on x86: sums and kernels
-__extension__ typedef __float128 Quad;       ///< 113 bit mantissa: lines and depth differences, rounded once to Real
+using Real = long double;  ///< 64 bit mantissa on x86: sums and kernels
+__extension__ typedef __float128
+    Quad;  ///< 113 bit mantissa: lines and depth differences, rounded once to Real
 
 }  // namespace edgewise::witness
