@@ -22,7 +22,9 @@ struct InfoArguments {
     bool json = false;
 };
 
-Json asJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Json asJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 /// Rows from the top: eye = view * world, for column vectors.
 Json asJson(const glm::dmat4& m) {
@@ -34,10 +36,10 @@ Json asJson(const glm::dmat4& m) {
 Json countsJson(const Scene& scene) {
     std::size_t vertices = 0;
     for (const Geometry& geometry : scene.geometry) vertices += geometry.position_world.size();
-    return {{"triangles", scene.triangle_count},     {"vertices", vertices},
-            {"primitives", scene.geometry.size()},   {"nodes", scene.node_names.size()},
-            {"meshes", scene.mesh_names.size()},     {"materials", scene.materials.size()},
-            {"textures", scene.textures.size()},     {"images", scene.images.size()},
+    return {{"triangles", scene.triangle_count},   {"vertices", vertices},
+            {"primitives", scene.geometry.size()}, {"nodes", scene.node_names.size()},
+            {"meshes", scene.mesh_names.size()},   {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},   {"images", scene.images.size()},
             {"cameras", scene.cameras.size()}};
 }
 
@@ -86,7 +88,8 @@ Json lightsJson() {
 
 Json ignoredJson(const Scene& scene) {
     Json list = Json::array();
-    for (const Ignored& ignored : scene.ignored) list.push_back({{"what", ignored.what}, {"count", ignored.count}});
+    for (const Ignored& ignored : scene.ignored)
+        list.push_back({{"what", ignored.what}, {"count", ignored.count}});
     return list;
 }
 
@@ -121,7 +124,8 @@ void printInWords(const Json& info) {
         } else if (value.is_array()) {
             for (const Json& entry : value) fmt::print("{:<8} {}\n", name, entry.dump());
         } else if (value.is_object()) {
-            for (const auto& [key, entry] : value.items()) fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
+            for (const auto& [key, entry] : value.items())
+                fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
         } else {
             fmt::print("{:<8} {}\n", name, value.get<std::string>());
         }
@@ -140,8 +144,8 @@ void info(const InfoArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("info", "what is in a scene, its resolved camera and lights, what is ignored, the plan");
+    CLI::App* command = program.add_subcommand(
+        "info", "what is in a scene, its resolved camera and lights, what is ignored, the plan");
     auto arguments = std::make_shared<InfoArguments>();
     addPictureOptions(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");

@@ -43,7 +43,8 @@ ShadingChoice readShading(const std::string& text) {
     if (!text.starts_with(kSamples))
         throw InputError("--shading", fmt::format("'{}' is none of closest, centroid, samples:N, hit", text));
     const std::string number = text.substr(kSamples.size());
-    return {ShadingMode::kSamples, static_cast<int>(parseInteger("--shading", number, 1, kMaxShadingSamples))};
+    return {ShadingMode::kSamples,
+            static_cast<int>(parseInteger("--shading", number, 1, kMaxShadingSamples))};
 }
 
 }  // namespace
@@ -53,21 +54,22 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
         ->type_name("cpu|vulkan|auto")
         ->capture_default_str();
     command
-        .add_option("--shading", arguments.shading,
-                    "where a (pixel, primitive) is shaded, for every method alike; hit: sampling methods shade each "
-                    "sample where it lands")
+        .add_option(
+            "--shading", arguments.shading,
+            "where a (pixel, primitive) is shaded, for every method alike; hit: sampling methods shade each "
+            "sample where it lands")
         ->type_name("closest|centroid|samples:N|hit")
         ->capture_default_str();
     command.add_option("--background", arguments.background, "linear colour [0,0,0]")->type_name("R,G,B");
     command.add_option("--threads", arguments.threads, "CPU threads [all]")->type_name("N");
     command
-        .add_option("--memory", arguments.memory,
-                    "ceiling for the buffers, the image is tiled to fit [1024]")
+        .add_option("--memory", arguments.memory, "ceiling for the buffers, the image is tiled to fit [1024]")
         ->type_name("MIB");
     command.add_option("--seed", arguments.seed, "of stochastic methods [0]")->type_name("N");
     command
-        .add_option("--no-skip", arguments.no_skip,
-                    fmt::format("forces what the plan leaves out: {}; repeatable", fmt::join(noSkipNames(), ", ")))
+        .add_option(
+            "--no-skip", arguments.no_skip,
+            fmt::format("forces what the plan leaves out: {}; repeatable", fmt::join(noSkipNames(), ", ")))
         ->type_name("NAME")
         ->allow_extra_args(false);
 }
@@ -94,7 +96,8 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
 
 ThreadLimit::ThreadLimit(const RenderOptions& options) {
     if (options.threads > 0)
-        control_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+        control_.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.threads));
 }
 
 void checkDevice(const MethodArguments& arguments, const MethodSpec& method) {

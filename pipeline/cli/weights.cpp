@@ -31,13 +31,13 @@ glm::ivec2 readPixel(const std::string& text, const Film& film) {
     const glm::dvec2 pixel = parsePair("--pixel", text);
     const bool whole = pixel == glm::floor(pixel);
     if (!whole || pixel.x < 0 || pixel.y < 0 || pixel.x >= film.width || pixel.y >= film.height)
-        throw InputError("--pixel",
-                         fmt::format("'{}' is no pixel of a picture of {}x{}", text, film.width, film.height));
+        throw InputError(
+            "--pixel", fmt::format("'{}' is no pixel of a picture of {}x{}", text, film.width, film.height));
     return pixel;
 }
 
-/// Every number reads back exactly. `layers` are the triangles seen through each other, front to back: one, while
-/// everything is opaque.
+/// Every number reads back exactly. `layers` are the triangles seen through each other, front to back: one,
+/// while everything is opaque.
 Json ownerJson(const Scene& scene, const PixelOwner& owner) {
     const TriangleRef triangle = findTriangle(scene, owner.index);
     const Geometry& geometry = scene.geometry[triangle.geometry];
@@ -68,12 +68,9 @@ void weights(const WeightsArguments& arguments) {
     const PixelReport report =
         pixelWeights({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel.x, pixel.y);
 
-    Json json{{"pixel", {pixel.x, pixel.y}},
-              {"size", {picture.film.width, picture.film.height}},
-              {"filter", filterJson(filter)},
-              {"weights", Json::array()},
-              {"background", report.background},
-              {"sum", report.sum}};
+    Json json{{"pixel", {pixel.x, pixel.y}},     {"size", {picture.film.width, picture.film.height}},
+              {"filter", filterJson(filter)},    {"weights", Json::array()},
+              {"background", report.background}, {"sum", report.sum}};
     for (const PixelOwner& owner : report.owners) json["weights"].push_back(ownerJson(picture.scene, owner));
     fmt::print("{}\n", json.dump(2));
 }

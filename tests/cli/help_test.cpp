@@ -21,12 +21,31 @@ TEST(Help, NamesEveryCommand) {
 TEST(Help, OfRenderNamesEveryFlag) {
     const ProgramRun run = runProgram({"render", "--help"});
     EXPECT_EQ(run.status, 0);
-    for (const char* flag :
-         {"-o", "--size WxH", "--crop X0,Y0,X1,Y1", "--shift DX,DY", "--scene NAME|INDEX", "--camera NAME|INDEX",
-          "--eye X,Y,Z", "--target X,Y,Z", "--fovy DEG", "--method M", "--filter F", "--radius R", "--sigma S",
-          "--device cpu|vulkan|auto", "--shading closest|centroid|samples:N|hit", "--background R,G,B",
-          "--exposure EV", "--threads N", "--memory MIB", "--stats FILE.json", "--explain", "--no-skip NAME",
-          "--dump-stages DIR", "--seed N", "--quiet"})
+    for (const char* flag : {"-o",
+                             "--size WxH",
+                             "--crop X0,Y0,X1,Y1",
+                             "--shift DX,DY",
+                             "--scene NAME|INDEX",
+                             "--camera NAME|INDEX",
+                             "--eye X,Y,Z",
+                             "--target X,Y,Z",
+                             "--fovy DEG",
+                             "--method M",
+                             "--filter F",
+                             "--radius R",
+                             "--sigma S",
+                             "--device cpu|vulkan|auto",
+                             "--shading closest|centroid|samples:N|hit",
+                             "--background R,G,B",
+                             "--exposure EV",
+                             "--threads N",
+                             "--memory MIB",
+                             "--stats FILE.json",
+                             "--explain",
+                             "--no-skip NAME",
+                             "--dump-stages DIR",
+                             "--seed N",
+                             "--quiet"})
         EXPECT_NE(run.out.find(flag), std::string::npos) << flag;
 }
 

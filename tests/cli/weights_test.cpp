@@ -45,7 +45,8 @@ TEST(Weights, SumToOne) {
         magnitude += std::abs(owner.at("weight").get<double>());
     }
     const double additions = static_cast<double>(json.at("weights").size()) + 1.0;
-    EXPECT_LE(std::abs(sum - 1.0), 2.0 * additions * 0x1p-53 * magnitude);  // a rounding a weight, one an addition
+    EXPECT_LE(std::abs(sum - 1.0),
+              2.0 * additions * 0x1p-53 * magnitude);  // a rounding a weight, one an addition
 }
 
 TEST(Weights, EmptySkyIsAllBackground) {
