@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace edgewise {
 namespace {
@@ -100,7 +101,7 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
         const FineCoordinate y{row + 0.5, 0.0};
         const OrderKey key = orderKey(y, frame.origin.y);
         if (key < line.in0 || key >= line.in1) continue;
-        crossings_.push_back({row, frame.origin.x + line.xAt(frame, y), left, right});
+        crossings_.push_back({row, frame.origin.x + line.xAt(frame, y), line.slope, left, right});
     }
 }
 
@@ -108,7 +109,7 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
 void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame,
                                 std::span<const std::uint32_t> triangles, CellOutput& out) {
     std::sort(crossings_.begin(), crossings_.end(), [](const RowCrossing& a, const RowCrossing& b) {
-        return a.row != b.row ? a.row < b.row : a.x < b.x;
+        return std::tie(a.row, a.x, a.slope) < std::tie(b.row, b.x, b.slope);
     });
     const double start = frame.cell.min.x + kBorderRestPx, middle = 0.5 * (frame.cell.min.x + frame.cell.max.x);
     auto next = crossings_.begin();

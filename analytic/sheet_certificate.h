@@ -30,10 +30,11 @@ class SheetCertificate {
     void emitRows(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
                   CellOutput& out);
 
-    /// A row meets a non-horizontal edge at x; right of it lies `after`.
+    /// A row meets a non-horizontal edge at x; right of it lies `after`. Edges that leave one point on the row are in
+    /// the order in which the scanline just below meets them: by slope.
     struct RowCrossing {
         int row;
-        double x;
+        double x, slope;
         Owner before, after;
     };
     std::vector<SharedEdge> edges_;

@@ -107,6 +107,7 @@ void SlabSweep::State::startSlab(std::size_t slab) {
         const std::uint32_t i = by_entry[next_entry++];
         Track& t = tracks[i];
         t.top = leaf.lines[i].enter, t.top_known = true, t.x_top = leaf.frame.localX(t.top);
+        t.bottom_known = false;  // an event where the line begins is its top, not its bottom
         order.push_back(i);
     }
 }
