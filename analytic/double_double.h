@@ -1,9 +1,4 @@
-// shaders/shared/double_double.glsl as C++ double.
+// shaders/shared/double_double.glsl as C++ double, with the elementary functions.
 #pragma once
 
-#include "analytic/shared_text.h"
-
-namespace edgewise::f64 {
-using real = double;
-#include "shaders/shared/double_double.glsl"
-}  // namespace edgewise::f64
+#include "analytic/transcendental.h"

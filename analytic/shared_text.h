@@ -5,3 +5,4 @@
 #define EDGEWISE_PRECISE
 #define EDGEWISE_INIT {
 #define EDGEWISE_END }
+#define EDGEWISE_REAL(number) number

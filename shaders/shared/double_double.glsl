@@ -25,10 +25,10 @@ EDGEWISE_FN dd quickTwoSum(real a, real b) {
 /// a * b = hi + lo exactly, without a fused multiply-add (Veltkamp and Dekker); |a|, |b| < 2^970.
 EDGEWISE_FN dd twoProd(real a, real b) {
     EDGEWISE_PRECISE real p = a * b;
-    EDGEWISE_PRECISE real ta = 134217729.0 * a;
+    EDGEWISE_PRECISE real ta = EDGEWISE_REAL(134217729.0) * a;
     EDGEWISE_PRECISE real ah = ta - (ta - a);
     EDGEWISE_PRECISE real al = a - ah;
-    EDGEWISE_PRECISE real tb = 134217729.0 * b;
+    EDGEWISE_PRECISE real tb = EDGEWISE_REAL(134217729.0) * b;
     EDGEWISE_PRECISE real bh = tb - (tb - b);
     EDGEWISE_PRECISE real bl = b - bh;
     EDGEWISE_PRECISE real e = ((ah * bh - p) + ah * bl + al * bh) + al * bl;

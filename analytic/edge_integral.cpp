@@ -1,0 +1,121 @@
+#include "analytic/edge_integral.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "analytic/transcendental.h"
+
+namespace edgewise {
+
+namespace scalar { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+namespace sse2 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+#if defined(EDGEWISE_HAS_AVX)
+namespace avx2 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+namespace avx512 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+#endif
+
+namespace {
+
+/// e^-(9.25^2 / 2) < 2^-61.
+constexpr double kGaussianReach = 9.25;
+
+/// Nodes for pieces of up to `limit` sigmas: |F| errs by |h| L' / (4 pi sigma^2) times the mean's error, and
+/// |phi1(v + iw)| <= max(1, e^-v), so at |Im t| <= y it is at most e^max(0, (y^2 - h^2)/2). [E9]
+GaussRule pieceRule(double limit) {
+    const double h_most = kGaussianReach;
+    const auto growth = [=](double y) {
+        // sup over h of h max(1, e^((y^2 - h^2)/2)): h <= reach, and h e^(-h^2/2) <= e^(-1/2)
+        return std::max(h_most, std::exp((y * y - 1) / 2)) * limit / (4 * M_PI);
+    };
+    return gaussRule(nodesNeeded(growth, limit, 0x1p-62));
+}
+
+RuleView viewOf(const GaussRule& rule) { return {rule.count(), rule.node.data(), rule.weight.data()}; }
+
+TableView viewOf(const KernelTable& table) {
+    return {table.intervals(), table.k_count, table.knot.data(), table.centre.data(), table.inverse_half.data(),
+            table.k.data(), table.K.data(), table.k_max, viewOf(table.rule)};
+}
+
+void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter) {
+    LaneKernel& lanes = kernel.lanes;
+    lanes.form = TermForm::kGaussian;
+    lanes.sigma = filter.sigma.value_or(filter.radius / 3.0);
+    lanes.inverse_reach = 1.0 / (M_SQRT2 * lanes.sigma);
+    lanes.inner_radius = std::min(filter.radius, kGaussianReach * lanes.sigma);
+    const double v = lanes.inner_radius * lanes.inverse_reach;
+    lanes.scale = 1.0 / (2.0 * M_PI * lanes.inner_radius * lanes.inner_radius * f64::phi1(v * v));
+    constexpr double kLimits[4] = {0.25, 1.0, 2.0, 3.0};
+    for (int i = 0; i < 4; ++i) {
+        kernel.piece_rules[i] = pieceRule(kLimits[i]);
+        lanes.piece_rules[i] = {kLimits[i], viewOf(kernel.piece_rules[i])};
+    }
+}
+
+void preparePoly(EdgeKernel& kernel, const Prefilter& filter) {
+    double integral = 0.0;
+    for (std::size_t k = 0; k < filter.poly.size(); ++k) {
+        kernel.poly.push_back(filter.poly[k] / static_cast<double>(2 * k + 2));
+        integral += kernel.poly.back();
+    }
+    kernel.poly_rule = gaussRule(static_cast<int>(filter.poly.size()));
+    kernel.lanes.form = TermForm::kPoly;
+    kernel.lanes.scale = 1.0 / (2.0 * M_PI * filter.radius * filter.radius * integral);
+    kernel.lanes.poly = kernel.poly.data();
+    kernel.lanes.poly_rule = viewOf(kernel.poly_rule);
+}
+
+void prepareStrip(EdgeKernel& kernel, const Prefilter& filter) {
+    kernel.table = filter.table ? filter.table : std::make_shared<KernelTable>(makeKernelTable(filter));
+    kernel.lanes.form = TermForm::kStrip;
+    kernel.lanes.table = viewOf(*kernel.table);
+}
+
+}  // namespace
+
+EdgeKernel::EdgeKernel(const Prefilter& filter) {
+    const double R2 = filter.radius * filter.radius;
+    lanes.radius = lanes.inner_radius = filter.radius;
+    switch (filter.kind) {
+        case KernelKind::kDisk:
+            lanes.form = TermForm::kDisk;
+            lanes.scale = 1.0 / (2.0 * M_PI * R2);
+            return;
+        case KernelKind::kCone:
+            lanes.form = TermForm::kCone;
+            lanes.scale = 3.0 / (M_PI * R2);
+            return;
+        case KernelKind::kGaussian: prepareGaussian(*this, filter); return;
+        case KernelKind::kPoly: preparePoly(*this, filter); return;
+        default: prepareStrip(*this, filter);
+    }
+}
+
+EdgeTermsFunction edgeTermsFor(const char* instruction_set) {
+    const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
+    if (is("scalar")) return scalar::edgeTerms;
+    if (is("sse2")) return sse2::edgeTerms;
+#if defined(EDGEWISE_HAS_AVX)
+    if (is("avx2") && __builtin_cpu_supports("avx2")) return avx2::edgeTerms;
+    if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        return avx512::edgeTerms;
+#endif
+    return nullptr;
+}
+
+EdgeTermsFunction chooseEdgeTerms() {
+    if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
+        if (EdgeTermsFunction function = edgeTermsFor(forced)) return function;
+        throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
+    }
+    for (const char* name : {"avx512", "avx2", "sse2"})
+        if (EdgeTermsFunction function = edgeTermsFor(name)) return function;
+    return scalar::edgeTerms;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,36 @@
+// One signed term a (segment, sample): fan terms of radial kernels inside their disk, strip terms of separable ones inside
+// their square, and where the segment crosses the support's border. The code behind edgeTerms() is built once an
+// instruction set, all with the same bits.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "analytic/gauss_legendre.h"
+#include "analytic/kernel_table.h"
+#include "analytic/lane_kernel.h"
+#include "analytic/prefilter.h"
+
+namespace edgewise {
+
+/// A kernel prepared for its terms; `lanes` points into the rest.
+struct EdgeKernel {
+    LaneKernel lanes;
+    std::array<GaussRule, 4> piece_rules;
+    GaussRule poly_rule;
+    std::vector<double> poly;
+    std::shared_ptr<const KernelTable> table;
+
+    explicit EdgeKernel(const Prefilter& filter);
+    EdgeKernel(const EdgeKernel&) = delete;
+    EdgeKernel& operator=(const EdgeKernel&) = delete;
+};
+
+using EdgeTermsFunction = void (*)(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+
+/// The best form that this machine runs, or the one that EDGEWISE_ISA=scalar|sse2|avx2|avx512 names.
+EdgeTermsFunction chooseEdgeTerms();
+/// By name; nullptr where this machine or build has none.
+EdgeTermsFunction edgeTermsFor(const char* instruction_set);
+
+}  // namespace edgewise

@@ -1,0 +1,124 @@
+// Fan terms of radial kernels, inside the support's disk, and crossings with its circle. [E3]-[E9], [E12]
+
+/// The part of the segment inside the disk: [t1, t2], `length` px long.
+struct Piece {
+    real t1, t2, length;
+};
+
+/// mean over one piece of phi1(r^2 / 2 sigma^2), by `rule`; positions in units of sqrt 2 sigma.
+EDGEWISE_FN real phi1Mean(const RuleView& rule, real h, real t, real step) {
+    const int count = rule.count;
+    real sum = splat(0.0);
+    for (int i = 0; i < count; ++i) {
+        const real at = t + step * rule.node[i];
+        sum = sum + rule.weight[i] * phi1(h * h + at * at);
+    }
+    return sum;
+}
+
+/// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it. [E9]
+EDGEWISE_FN real gaussianMean(const LaneKernel& kernel, real h, Piece piece) {
+    const real sigmas = piece.length / kernel.sigma;
+    const real wanted = -nearestInteger(0.5 - sigmas * (1.0 / 3.0));
+    const real parts = wanted < 1.0 ? splat(1.0) : wanted;
+    const real part = sigmas / parts;
+    const real hs = h * kernel.inverse_reach, ts = piece.t1 * kernel.inverse_reach;
+    const real step = piece.length * kernel.inverse_reach / parts;
+    real mean = splat(0.0);
+    double lower = -1.0;
+    for (int r = 0; r < 4; ++r) {
+        const double upper = r == 3 ? 1e300 : kernel.piece_rules[r].limit_sigma;
+        const mask mine = (part > lower ? 1.0 : splat(0.0)) * (part <= upper ? 1.0 : splat(0.0)) > 0.5;
+        lower = upper;
+        if (!any(mine)) continue;
+        real sum = splat(0.0);
+        for (double i = 0.0; any(mine) && any(i < parts); i += 1.0) {
+            const real here = phi1Mean(kernel.piece_rules[r].rule, hs, ts + step * i, step);
+            sum = sum + (i < parts ? here : splat(0.0));
+        }
+        mean = mine ? sum / parts : mean;
+    }
+    return mean;
+}
+
+/// g of an even polynomial, in powers of (r/R)^2: exact nodes. [E8]
+EDGEWISE_FN real polyMean(const LaneKernel& kernel, real h, Piece piece) {
+    const int nodes = kernel.poly_rule.count;
+    const double* c = kernel.poly;
+    const real hs = h / kernel.radius, ts = piece.t1 / kernel.radius, step = piece.length / kernel.radius;
+    real mean = splat(0.0);
+    for (int i = 0; i < nodes; ++i) {
+        const real at = ts + step * kernel.poly_rule.node[i];
+        const real q = hs * hs + at * at;
+        real g = splat(c[nodes - 1]);
+        for (int k = nodes - 2; k >= 0; --k) g = g * q + c[k];
+        mean = mean + kernel.poly_rule.weight[i] * g;
+    }
+    return mean;
+}
+
+/// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. [E9]
+EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece) {
+    const real c = halfChord(h, splat(kernel.inner_radius));
+    const real first_end = smaller(piece.t2, -c), second_start = larger(piece.t1, c);
+    real angle = splat(0.0);
+    angle = angle + (piece.t1 < first_end ? subtendedAngle(h, piece.t1, first_end) : splat(0.0));
+    angle = angle + (second_start < piece.t2 ? subtendedAngle(h, second_start, piece.t2) : splat(0.0));
+    const real t1 = larger(piece.t1, -c), t2 = smaller(piece.t2, c);
+    const real rest = larger(t2 - t1, splat(0.0));
+    piece.length = piece.t1 < -c ? rest : (piece.t2 > c ? rest : piece.length);
+    piece.t1 = t1;
+    piece.t2 = t2;
+    return angle * 0.15915494309189535;
+}
+
+EDGEWISE_FN real fanTerm(const LaneKernel& kernel, real h, Piece piece) {
+    real outer = splat(0.0);
+    if (kernel.inner_radius < kernel.radius) outer = takeOuterAngles(kernel, h, piece);
+    const real cross = h * piece.length;
+    switch (kernel.form) {
+        case TermForm::kDisk: return cross * kernel.scale;
+        case TermForm::kCone:
+            return cross * coneMean(h, piece.t1, piece.t2, piece.length, splat(kernel.radius)) * kernel.scale;
+        case TermForm::kGaussian: return outer + cross * gaussianMean(kernel, h, piece) * kernel.scale;
+        default: return cross * polyMean(kernel, h, piece) * kernel.scale;
+    }
+}
+
+/// Where the line at t meets the circle: its angle in turns, and how far rounding may have moved it.
+EDGEWISE_FN void circleCrossing(const LaneKernel& kernel, const Line& line, real t, mask crossed, int slot, int first,
+                                EdgeTerms& terms) {
+    terms.crossed[slot] |= laneSet(crossed, first);
+    if (!any(crossed)) return;
+    const real turns = atan2Real(t * line.d_y - line.h * line.d_x, line.h * line.d_y + t * line.d_x) * 0.15915494309189535;
+    store(toFixed(turns), first, terms.position[slot]);
+    store(turns, first, terms.order[slot]);
+    // h errs by 4u R, so the half chord c by 4u R^2/c, or sqrt(8u) R when the line is that near to a tangent
+    const real amplified = smaller(kernel.radius / larger(absolute(t), splat(0x1p-1000)), splat(0x1p27));
+    store((1.0 + amplified) * 0x1p-51, first, terms.doubt[slot]);
+}
+
+EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+    const double R2 = kernel.radius * kernel.radius;
+    const real one = splat(1.0), none = splat(0.0);
+    const real c = halfChord(line.h, splat(kernel.radius));
+    const real in_a = line.a_x * line.a_x + line.a_y * line.a_y <= R2 ? one : none;
+    const real in_b = line.b_x * line.b_x + line.b_y * line.b_y <= R2 ? one : none;
+    const real chord = (line.t_a < 0.0 ? one : none) * (line.t_b > 0.0 ? one : none) * (c > 0.0 ? one : none);
+    const real through = chord * (1.0 - in_a) * (1.0 - in_b);
+    const mask touched = in_a + in_b + through > 0.5;
+    terms.touched |= laneSet(touched, first);
+    if (!any(touched)) {
+        store(toFixed(none), first, terms.value);
+        return;
+    }
+    Piece piece;
+    piece.t1 = in_a > 0.5 ? line.t_a : -c;
+    piece.t2 = in_b > 0.5 ? line.t_b : c;
+    piece.length = in_a + in_b > 1.5 ? line.length : larger(piece.t2 - piece.t1, none);
+    piece.length = touched ? piece.length : none;
+    const real value = flushTiny(fanTerm(kernel, line.h, piece));
+    store(toFixed(touched ? value : none), first, terms.value);
+    circleCrossing(kernel, line, -c, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
+    circleCrossing(kernel, line, c, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
+}

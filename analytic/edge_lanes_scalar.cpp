@@ -1,0 +1,3 @@
+#define EDGEWISE_ISA scalar
+#define EDGEWISE_LANES 1
+#include "analytic/edge_lanes.inl"

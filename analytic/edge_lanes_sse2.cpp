@@ -1,0 +1,3 @@
+#define EDGEWISE_ISA sse2
+#define EDGEWISE_LANES 8
+#include "analytic/edge_lanes.inl"

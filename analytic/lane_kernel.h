@@ -1,0 +1,65 @@
+// What the code of one instruction set takes and gives: plain data, no library types, so that nothing compiled for a newer
+// machine can be linked into code for an older one.
+#pragma once
+
+#include <cstdint>
+
+namespace edgewise {
+
+enum class TermForm { kDisk, kCone, kGaussian, kPoly, kStrip };
+
+/// A GaussRule: the mean of f over [0, 1] is sum weight[i] f(node[i]).
+struct RuleView {
+    int count = 0;
+    const double* node = nullptr;
+    const double* weight = nullptr;
+};
+
+/// A Gaussian piece no longer than `limit_sigma` sigma takes `rule`. [E9]
+struct PieceRule {
+    double limit_sigma = 0.0;
+    RuleView rule;
+};
+
+/// A KernelTable.
+struct TableView {
+    int intervals = 0, k_count = 0;
+    const double *knot = nullptr, *centre = nullptr, *inverse_half = nullptr, *k = nullptr, *K = nullptr;
+    double k_max = 0.0;
+    RuleView rule;
+};
+
+/// Everything about a kernel that its terms need.
+struct LaneKernel {
+    TermForm form = TermForm::kDisk;
+    double radius = 0.0;
+    double inner_radius = 0.0;   ///< Gaussian: beyond it g is 1/(2 pi r^2) to 2^-61
+    double scale = 0.0;          ///< F_in = h L' mean(..) scale
+    double sigma = 0.0;          ///< Gaussian
+    double inverse_reach = 0.0;  ///< Gaussian: 1/(sqrt 2 sigma)
+    PieceRule piece_rules[4];
+    const double* poly = nullptr;  ///< c_k / (2k + 2): g in powers of (r/R)^2
+    RuleView poly_rule;
+    TableView table;
+};
+
+/// A segment, its line and the first of eight samples, px. Names as in VisibleSegment and CarrierLine.
+struct EdgeInput {
+    double sample_x, sample_y;
+    double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, length;
+    double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
+};
+
+/// For eight samples. A crossing with the border: radial, its angle over 2 pi in (-1/2, 1/2]; separable, K(y) on the side
+/// x = sample.x + R. In fixed point 2^-60.  Going along the border (by angle, by y) an entry [0] leads from the segment's
+/// left owner to its right one, an exit [1] from right to left. [E12], [E13]
+struct EdgeTerms {
+    alignas(64) std::int64_t value[8];
+    alignas(64) std::int64_t position[2][8];
+    alignas(64) double order[2][8];  ///< what crossings are sorted by: the angle in turns; y, px
+    alignas(64) double doubt[2][8];  ///< how far rounding may have moved `order`
+    unsigned touched;                ///< lanes whose support meets the segment: the others' value is 0
+    unsigned crossed[2];
+};
+
+}  // namespace edgewise

@@ -1,0 +1,107 @@
+#include "analytic/pixel_weights.h"
+
+#include <algorithm>
+#include <array>
+
+#include "analytic/border.h"
+#include "analytic/edge_integral.h"
+#include "analytic/owner_table.h"
+
+namespace edgewise {
+namespace {
+
+using Lanes = std::array<std::int64_t, PixelWeights::kLanes>;
+
+/// Rounding can only touch a border that is within this of a segment: 2^-40 of the radius is 2^12 units of 2^-52.
+constexpr double kSlack = 1.0 + 0x1p-40;
+
+void addLanes(OwnerTable& table, Owner owner, const std::int64_t* value, std::int64_t sign) {
+    Lanes& weight = table.row(owner).weight;
+    for (int i = 0; i < PixelWeights::kLanes; ++i)
+        weight[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(weight[i]) +
+                                              static_cast<std::uint64_t>(sign * value[i]));
+}
+
+EdgeInput inputOf(glm::dvec2 sample, const VisibleSegment& s, const CarrierLine& l) {
+    return {sample.x,   sample.y,   s.a.grid.x, s.a.grid.y, s.a.rest.x, s.a.rest.y, s.b.grid.x,    s.b.grid.y,
+            s.b.rest.x, s.b.rest.y, s.length,   l.origin.x, l.origin.y, l.nx_hi,    l.nx_lo,       l.ny_hi,
+            l.ny_lo,    l.c_hi,     l.c_lo,     l.length,   l.direction.x, l.direction.y};
+}
+
+}  // namespace
+
+struct PixelWeights::State {
+    explicit State(const Prefilter& filter) : kernel(filter), edge_terms(chooseEdgeTerms()) {}
+
+    bool reaches(const VisibleSegment& segment) const;
+    void addBorder(const VisibleSegment& segment, Owner left, Owner right);
+
+    EdgeKernel kernel;
+    EdgeTermsFunction edge_terms;
+    glm::dvec2 first{0.0};
+    int count = 0;
+    EdgeTerms terms{};
+    OwnerTable table;
+    std::array<std::vector<BorderCrossing>, kLanes> crossings;
+    std::vector<BorderShare> shares;
+    std::uint64_t term_count = 0, conflicts = 0;
+};
+
+/// Whether the segment's box meets the box of the supports.
+bool PixelWeights::State::reaches(const VisibleSegment& segment) const {
+    const double reach = kernel.lanes.radius * kSlack + kGridPx;
+    const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
+    return std::min(a.x, b.x) <= reach + (count - 1) && std::max(a.x, b.x) >= -reach && std::min(a.y, b.y) <= reach &&
+           std::max(a.y, b.y) >= -reach;
+}
+
+void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, Owner right) {
+    for (int slot = 0; slot < 2; ++slot)
+        for (int i = 0; i < count; ++i)
+            if (terms.crossed[slot] >> i & 1u)
+                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], slot == 0 ? left : right,
+                                        slot == 0 ? right : left, segment.line});
+}
+
+PixelWeights::PixelWeights(const Prefilter& filter) : state_(std::make_unique<State>(filter)) {}
+PixelWeights::~PixelWeights() = default;
+
+void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
+    state_->first = first_sample_px;
+    state_->count = count;
+    state_->table.clear();
+    for (auto& list : state_->crossings) list.clear();
+}
+
+void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
+    State& s = *state_;
+    if (left == right || !s.reaches(segment)) return;
+    s.edge_terms(s.kernel.lanes, inputOf(s.first, segment, line), s.terms);
+    const unsigned touched = s.terms.touched & ((1u << s.count) - 1u);
+    if (touched == 0) return;
+    s.term_count += static_cast<unsigned>(__builtin_popcount(touched));
+    addLanes(s.table, left, s.terms.value, 1);
+    addLanes(s.table, right, s.terms.value, -1);
+    s.addBorder(segment, left, right);
+}
+
+void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {
+    State& s = *state_;
+    for (int i = 0; i < s.count; ++i) {
+        s.conflicts += static_cast<unsigned>(
+            shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, base_owner[i], s.shares));
+        for (const BorderShare& share : s.shares) s.table.row(share.owner).weight[i] += share.share;
+    }
+    const std::vector<OwnerTable::Row>& rows = s.table.sorted();
+    for (int i = 0; i < s.count; ++i) {
+        offset[i] = out.size();
+        for (const OwnerTable::Row& row : rows)
+            if (row.weight[i] != 0) out.push_back({row.owner, row.weight[i]});
+    }
+    offset[s.count] = out.size();
+}
+
+std::uint64_t PixelWeights::terms() const { return state_->term_count; }
+std::uint64_t PixelWeights::label_conflicts() const { return state_->conflicts; }
+
+}  // namespace edgewise

@@ -1,0 +1,13 @@
+// shaders/shared/transcendental.glsl as C++ double.
+#pragma once
+
+#include "analytic/shared_text.h"
+
+namespace edgewise::f64 {
+#define EDGEWISE_LANES 1
+#include "analytic/real_lanes.h"
+#undef EDGEWISE_LANES
+#include "shaders/shared/double_double.glsl"
+#include "shaders/shared/transcendental.glsl"
+#include "shaders/shared/erf.glsl"
+}  // namespace edgewise::f64
