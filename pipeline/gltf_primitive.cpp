@@ -116,6 +116,7 @@ class PrimitiveReader {
         const AccessorNumbers positions = *attribute("POSITION", {TINYGLTF_TYPE_VEC3}, kPosition);
         geometry.position_world.resize(positions.count);
         fill(positions, geometry.position_world);
+        if (positions.divisor == 1.0) geometry.world_from_file = glm::dmat4(1.0);  // the node's map follows
         geometry.position_file.resize(positions.count);
         for (std::size_t i = 0; i < positions.count; ++i)
             for (int c = 0; c < 3; ++c)

@@ -177,6 +177,7 @@ class SceneReader {
                 throw InputError(nodeName(static_cast<int>(geometry.node)),
                                  "a vertex is not finite in world space");
         }
+        if (geometry.world_from_file) geometry.world_from_file = world_from_node;
         const glm::dmat3 normals = normalTransform(world_from_node);
         for (glm::dvec3& normal : geometry.normal_world) normal = normals * normal;
         if (flipsWinding(world_from_node))

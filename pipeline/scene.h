@@ -44,16 +44,16 @@ struct Geometry {
     /// As stored in the file, before the node's transform and before a normalized integer's division: exact.
     std::vector<glm::vec3> position_file;
     std::vector<glm::dvec3> position_world;
-    std::vector<glm::dvec3> normal_world;    ///< not normalised; empty: flat normals
-    /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken through it
-    /// from the file's exact planes. None: through the rounded world positions.
+    std::vector<glm::dvec3> normal_world;  ///< not normalised; empty: flat normals
+    /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken
+    /// through it from the file's exact planes. None: through the rounded world positions.
     std::optional<glm::dmat4> world_from_file;
     std::array<std::vector<glm::dvec2>, 2> uv;
-    std::vector<glm::dvec4> color;           ///< COLOR_0, linear
+    std::vector<glm::dvec4> color;                        ///< COLOR_0, linear
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< winding already flipped under negative scale
-    std::uint32_t material = 0;              ///< into Scene::materials
-    std::uint32_t node = 0, mesh = 0, primitive = 0;  ///< the file's indices
-    std::uint32_t first_triangle = 0;        ///< contract index of triangles[0]
+    std::uint32_t material = 0;                           ///< into Scene::materials
+    std::uint32_t node = 0, mesh = 0, primitive = 0;      ///< the file's indices
+    std::uint32_t first_triangle = 0;                     ///< contract index of triangles[0]
 };
 
 struct Camera {
@@ -61,7 +61,7 @@ struct Camera {
     std::uint32_t node = kNone;
     glm::dmat4 world_from_camera{1.0};  ///< rigid: looks down -z, +y up
     bool perspective = true;
-    double yfov = 0.0;            ///< radians; perspective
+    double yfov = 0.0;              ///< radians; perspective
     double xmag = 0.0, ymag = 0.0;  ///< half extents; orthographic
     std::optional<double> aspect;
     double znear = 0.0;
@@ -75,7 +75,7 @@ struct Ignored {
 };
 
 struct Scene {
-    std::string source;  ///< file or name, as the user gave it
+    std::string source;              ///< file or name, as the user gave it
     std::vector<Geometry> geometry;  ///< in index order: depth-first nodes, their mesh's primitives
     std::vector<Material> materials;  ///< the file's, in order, then the default one
     std::vector<Texture> textures;  ///< those that drawn materials use; never without an image

@@ -36,8 +36,8 @@ glm::dvec2 ScreenMap::toScreen(const glm::dvec3& p_eye) const {
             place(fraction_px.y, whole_px.y, -(scale_px * p_eye.y) / by_w, offset_px.y)};
 }
 
-glm::dvec2 ScreenMap::toImagePlane(glm::dvec2 p_px) const {
-    const glm::dvec2 from_centre = ((p_px - offset_px) - whole_px) - fraction_px;
+glm::dvec2 ScreenMap::toImagePlane(glm::dvec2 p_px, glm::dvec2 delta_px) const {
+    const glm::dvec2 from_centre = (((p_px - offset_px) - whole_px) - fraction_px) + delta_px;
     return {from_centre.x / scale_px, -from_centre.y / scale_px};
 }
 

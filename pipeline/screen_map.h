@@ -24,7 +24,9 @@ struct ScreenMap {
 
     /// The ray through a pixel position: perspective (u, v, -1) through the eye; orthographic (u, v) is the
     /// point itself.
-    glm::dvec2 toImagePlane(glm::dvec2 p_px) const;
+    /// The position is p + delta, so that a short delta keeps its digits: whole pixels added to p and offset
+    /// change no bit.
+    glm::dvec2 toImagePlane(glm::dvec2 p_px, glm::dvec2 delta_px) const;
 
     /// The principal point on the grid, where depth planes are anchored.
     glm::dvec2 anchorPx() const;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 
 namespace edgewise {
 
@@ -27,11 +28,11 @@ double cross2(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Nearest point of the segment a, b to s.
-glm::dvec2 nearestOnSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
+/// From s to the nearest point of the segment a, b; the differences of grid points are exact.
+glm::dvec2 offsetToSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
     const glm::dvec2 along = b - a;
-    const double t = glm::dot(s - a, along) / glm::dot(along, along);
-    return t <= 0.0 ? a : (t >= 1.0 ? b : a + along * t);
+    const double t = -glm::dot(a - s, along) / glm::dot(along, along);
+    return t <= 0.0 ? a - s : (t >= 1.0 ? b - s : (a - s) + along * t);
 }
 
 bool inside(const ScreenTriangle& piece, glm::dvec2 s) {
@@ -104,8 +105,7 @@ Shading::Surface Shading::surfaceOf(Owner owner) const {
 /// onto z = 0, a' = a + a.z (u, v): det(r, b, c) does not change by that, so the weight of a is cross(b',
 /// c'), whether or not the corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine
 /// in (u, v).
-Shading::Location Shading::locate(const Surface& surface, glm::dvec2 p_px) const {
-    const glm::dvec2 uv = map_.toImagePlane(p_px);
+Shading::Location Shading::locate(const Surface& surface, glm::dvec2 uv) const {
     std::array<glm::dvec2, 3> moved;
     std::array<double, 3> slope;  // d a' / d(u, v), times the identity
     for (int k = 0; k < 3; ++k) {
@@ -190,10 +190,8 @@ std::optional<glm::dvec3> Shading::constant(Owner owner) const {
     return constant(surfaceOf(owner));
 }
 
-glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
-    const Surface surface = surfaceOf(owner);
-    if (const auto colour = constant(surface)) return *colour;
-    const Location at = locate(surface, p_px);
+glm::dvec3 Shading::colourAt(const Surface& surface, glm::dvec2 image_plane) const {
+    const Location at = locate(surface, image_plane);
     glm::dvec3 colour(surface.material->base_color);
     if (pyramidOf(surface)) colour *= textureAt(surface, at);
     if (!surface.geometry->color.empty())
@@ -202,15 +200,22 @@ glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     return colour;
 }
 
-glm::dvec2 Shading::closestPoint(Owner owner, glm::dvec2 sample_px) const {
-    glm::dvec2 best = sample_px;
+glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
+    const Surface surface = surfaceOf(owner);
+    if (const auto colour = constant(surface)) return *colour;
+    return colourAt(surface, map_.toImagePlane(p_px, glm::dvec2(0.0)));
+}
+
+glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
+    glm::dvec2 best(0.0);
     double best_px2 = std::numeric_limits<double>::infinity();
     for (const ScreenTriangle& piece : pieces_.of(owner, screen_)) {
-        if (inside(piece, sample_px)) return sample_px;
+        if (inside(piece, sample_px)) return glm::dvec2(0.0);
         for (int k = 0; k < 3; ++k) {
-            const glm::dvec2 p = nearestOnSegment(piece.p_px[k], piece.p_px[(k + 1) % 3], sample_px);
-            const double px2 = glm::dot(p - sample_px, p - sample_px);
-            if (px2 < best_px2) best = p, best_px2 = px2;
+            const glm::dvec2 offset = offsetToSegment(piece.p_px[k], piece.p_px[(k + 1) % 3], sample_px);
+            if (glm::dot(offset, offset) >= best_px2) continue;
+            best = offset;
+            best_px2 = glm::dot(offset, offset);
         }
     }
     return best;
@@ -219,7 +224,7 @@ glm::dvec2 Shading::closestPoint(Owner owner, glm::dvec2 sample_px) const {
 glm::dvec3 Shading::closest(Owner owner, glm::dvec2 sample_px) const {
     const Surface surface = surfaceOf(owner);
     if (const auto colour = constant(surface)) return *colour;
-    return atPoint(owner, closestPoint(owner, sample_px));
+    return colourAt(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px)));
 }
 
 }  // namespace edgewise

@@ -38,14 +38,15 @@ class Shading {
     /// The colour of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<glm::dvec3> constant(Owner owner) const;
 
-    /// The point where closest() shades.
-    glm::dvec2 closestPoint(Owner owner, glm::dvec2 sample_px) const;
+    /// From the sample to the point where closest() shades.
+    glm::dvec2 closestOffset(Owner owner, glm::dvec2 sample_px) const;
 
   private:
     struct Surface;
     struct Location;
     Surface surfaceOf(Owner owner) const;
-    Location locate(const Surface& surface, glm::dvec2 p_px) const;
+    Location locate(const Surface& surface, glm::dvec2 image_plane) const;
+    glm::dvec3 colourAt(const Surface& surface, glm::dvec2 image_plane) const;
     glm::dvec3 flatNormal(const Surface& surface) const;
     glm::dvec3 cornerNormal(const Surface& surface, int corner) const;
     glm::dvec3 normalAt(const Surface& surface, const glm::dvec3& barycentric) const;

@@ -8,24 +8,12 @@
 #include <limits>
 #include <utility>
 
-#include "analytic/expansion.h"
+#include "analytic/exact_depth.h"
 #include "pipeline/grid_orientation.h"
 #include "pipeline/screen_map.h"
 
 namespace edgewise {
 namespace {
-
-/// The sign of the planes' difference at (dx, dy) from the anchor, exact.
-int exactDepthSign(const DepthPlane& a, const DepthPlane& b, double dx, double dy) {
-    Expansion<10> difference;
-    difference.addProduct(a.dz_dx, dx);
-    difference.addProduct(-b.dz_dx, dx);
-    difference.addProduct(a.dz_dy, dy);
-    difference.addProduct(-b.dz_dy, dy);
-    difference.add(a.z_anchor);
-    difference.add(-b.z_anchor);
-    return difference.sign();
-}
 
 /// False only if the whole box lies outside an edge; rounding errs towards true (two products of u = 2^-53
 /// each).
@@ -153,7 +141,7 @@ class TileSampler {
         const std::uint32_t other = scene_->triangles[seen].plane;
         if (other == t.plane) return false;
         ++exact_depths_;
-        return exactDepthSign(scene_->planes[t.plane], scene_->planes[other], dx, dy) > 0;
+        return depthDifferenceSign(scene_->planes[t.plane], scene_->planes[other], dx, dy) > 0;
     }
 
     void write(const PixelBox& window, std::vector<Owner>& out) const {

@@ -26,14 +26,28 @@ Table evaluateTable(const Prefilter& filter, int per_side, int margin_px) {
     return table;
 }
 
+/// Half, in samples: the table of weights is quadratic.
+constexpr double kWidestSupport = 4096.0;
+
+/// A fixed-point weight holds -8 to 8: no owner can get more than the sum of all weights' sizes.
+constexpr double kLargestWeight = 7.0;
+
 /// Rounded to 2^-60; the largest weight takes up what rounding left, so that the sum is exactly 1.
 std::vector<FixedWeight> normalise(const Table& table) {
-    double sum = 0.0;
-    for (const double w : table.weight) sum += w;
+    double sum = 0.0, size = 0.0;
+    for (const double w : table.weight) {
+        sum += w;
+        size += std::fabs(w);
+    }
     if (!(sum > 0.0))
         throw InputError("ssaa",
                          "the samples' weights do not sum to more than 0: none meets the filter's support; "
                          "use more samples or a larger radius");
+    if (size > kLargestWeight * sum)
+        throw FailureError(
+            "ssaa",
+            "the filter's negative lobes nearly cancel its positive ones: some pixel's weights "
+            "could exceed 7");
     std::vector<FixedWeight> fixed;
     FixedWeight rest = FixedWeight(1) << kWeightBits;
     for (const double w : table.weight) {
@@ -55,8 +69,10 @@ SampleWeights::Row makeRow(const FixedWeight* weight, int side) {
 
 }  // namespace
 
-SampleWeights::SampleWeights(const Prefilter& filter, int per_side)
-    : margin_px(static_cast<int>(std::ceil(std::max(filter.radius - 0.5, 0.0)))) {
+SampleWeights::SampleWeights(const Prefilter& filter, int per_side) {
+    if (filter.radius * per_side > kWidestSupport)
+        throw FailureError("ssaa", "the filter's support is wider than 8192 samples");
+    margin_px = static_cast<int>(std::ceil(std::max(filter.radius - 0.5, 0.0)));
     const Table table = evaluateTable(filter, per_side, margin_px);
     const std::vector<FixedWeight> fixed = normalise(table);
     for (int row = 0; row < table.side; ++row)

@@ -20,7 +20,9 @@ struct SampleWeights {
     int margin_px = 0;      ///< the window is the pixel and this many pixels around it
     std::vector<Row> rows;  ///< (2 margin + 1) K rows from the window's top; empty ones reach no sample
 
-    /// Throws InputError if no sample meets the support, or their weights sum to 0 or less.
+    /// Throws InputError if no sample meets the support, or their weights sum to 0 or less; FailureError
+    /// where fixed point could overflow, the sizes of the weights summing to more than 7, or the support is
+    /// wider than 8192 samples.
     SampleWeights(const Prefilter& filter, int per_side);
 };
 

@@ -78,10 +78,13 @@ TEST(Shade, ClosestPointOfATriangle) {
     // On the screen: (0, 0), (8, 0), (0, 8) px of an 8 x 8 film, at distance 1.
     const Shot shot(test::makeScene({test::makeGeometry({{{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}})}),
                     test::makePerspective(), 8, 8);
-    EXPECT_EQ(shot.shading.closestPoint(0, {1.5, 2.5}), glm::dvec2(1.5, 2.5));
-    EXPECT_EQ(shot.shading.closestPoint(0, {-3, -2}), glm::dvec2(0, 0));
-    EXPECT_EQ(shot.shading.closestPoint(0, {3, -2}), glm::dvec2(3, 0));
-    EXPECT_EQ(shot.shading.closestPoint(0, {8, 8}), glm::dvec2(4, 4));
+    auto closest = [&](double x, double y) {
+        return glm::dvec2(x, y) + shot.shading.closestOffset(0, {x, y});
+    };
+    EXPECT_EQ(closest(1.5, 2.5), glm::dvec2(1.5, 2.5));
+    EXPECT_EQ(closest(-3, -2), glm::dvec2(0, 0));
+    EXPECT_EQ(closest(3, -2), glm::dvec2(3, 0));
+    EXPECT_EQ(closest(8, 8), glm::dvec2(4, 4));
 }
 
 TEST(Shade, RigByHand) {
