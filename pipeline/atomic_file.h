@@ -7,7 +7,8 @@
 
 namespace edgewise {
 
-/// Throws InputError when `path` cannot name an output: it is empty or a folder, or its folder does not exist.
+/// Throws InputError when `path` cannot name an output: it is empty or a folder, or its folder does not
+/// exist.
 void checkOutputPath(const std::filesystem::path& path);
 
 /// Replaces `path` by a file of these bytes. A device or a pipe is written to as it is.
@@ -15,7 +16,8 @@ void checkOutputPath(const std::filesystem::path& path);
 void writeAtomically(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 void writeAtomically(const std::filesystem::path& path, std::string_view text);
 
-/// Removes the temporary file of a write under way. Safe in a signal handler; the process must end afterwards.
+/// Removes the temporary file of a write under way. Safe in a signal handler; the process must end
+/// afterwards.
 void removePendingFile() noexcept;
 
 }  // namespace edgewise

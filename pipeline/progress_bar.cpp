@@ -23,7 +23,8 @@ std::string progressLine(std::string_view name, std::size_t done, std::size_t to
                        std::floor(share * 100.0));
 }
 
-ProgressBar::ProgressBar(bool draw, const std::atomic<bool>& interrupted) : draw_(draw), interrupted_(interrupted) {}
+ProgressBar::ProgressBar(bool draw, const std::atomic<bool>& interrupted)
+    : draw_(draw), interrupted_(interrupted) {}
 
 ProgressBar::~ProgressBar() {
     if (draw_) std::fputs(kWipeLine, stderr);
@@ -45,7 +46,9 @@ void ProgressBar::advance(std::size_t done) {
     if (lock) redraw();
 }
 
-bool ProgressBar::cancelled() { return interrupted_; }
+bool ProgressBar::cancelled() {
+    return interrupted_;
+}
 
 void ProgressBar::redraw() {
     const auto now = std::chrono::steady_clock::now();

@@ -12,8 +12,8 @@
 
 namespace edgewise {
 
-/// Draws on standard error when `draw` is set, at most ten times a second, and wipes its line when it is destroyed.
-/// cancelled() tells what `interrupted` holds, drawn or not. Safe to use from several threads.
+/// Draws on standard error when `draw` is set, at most ten times a second, and wipes its line when it is
+/// destroyed. cancelled() tells what `interrupted` holds, drawn or not. Safe to use from several threads.
 class ProgressBar : public Progress {
   public:
     ProgressBar(bool draw, const std::atomic<bool>& interrupted);

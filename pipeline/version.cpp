@@ -1,5 +1,7 @@
 #include "pipeline/version.h"
 
 namespace edgewise {
-const char* version() { return EDGEWISE_VERSION; }
+const char* version() {
+    return EDGEWISE_VERSION;
+}
 }  // namespace edgewise

@@ -28,7 +28,8 @@ std::string pixelName(const PixelBox& box, std::size_t index) {
 }
 
 void requireFinite(const PixelBox& box, std::size_t index, double value) {
-    if (!std::isfinite(value)) throw FailureError(pixelName(box, index), fmt::format("is {}, not a number", value));
+    if (!std::isfinite(value))
+        throw FailureError(pixelName(box, index), fmt::format("is {}, not a number", value));
 }
 
 std::vector<float> exrPixels(const ImageBuffer& image) {
@@ -105,7 +106,8 @@ ImageFormat imageFormat(const std::filesystem::path& path) {
     throw InputError(path.string(), "an image's name ends in .exr or .png");
 }
 
-std::vector<unsigned char> encodeImage(const ImageBuffer& image, ImageFormat format, const WriteOptions& options) {
+std::vector<unsigned char> encodeImage(const ImageBuffer& image, ImageFormat format,
+                                       const WriteOptions& options) {
     OIIO::ImageSpec spec = format == ImageFormat::kExr ? exrSpec(image.box, options) : pngSpec(image.box);
     addMetadata(spec, options);
     if (format == ImageFormat::kExr) return encode("exr", spec, exrPixels(image).data());

@@ -7,7 +7,9 @@
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/picture_options.h"
+#include "pipeline/plan.h"
 #include "pipeline/progress_bar.h"
+#include "pipeline/project.h"
 #include "pipeline/shade.h"
 
 namespace edgewise::cli {
@@ -20,7 +22,9 @@ struct InfoArguments {
     bool json = false;
 };
 
-Json asJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Json asJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 /// Rows from the top: eye = view * world, for column vectors.
 Json asJson(const glm::dmat4& m) {
@@ -32,10 +36,10 @@ Json asJson(const glm::dmat4& m) {
 Json countsJson(const Scene& scene) {
     std::size_t vertices = 0;
     for (const Geometry& geometry : scene.geometry) vertices += geometry.position_world.size();
-    return {{"triangles", scene.triangle_count},     {"vertices", vertices},
-            {"primitives", scene.geometry.size()},   {"nodes", scene.node_names.size()},
-            {"meshes", scene.mesh_names.size()},     {"materials", scene.materials.size()},
-            {"textures", scene.textures.size()},     {"images", scene.images.size()},
+    return {{"triangles", scene.triangle_count},   {"vertices", vertices},
+            {"primitives", scene.geometry.size()}, {"nodes", scene.node_names.size()},
+            {"meshes", scene.mesh_names.size()},   {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},   {"images", scene.images.size()},
             {"cameras", scene.cameras.size()}};
 }
 
@@ -84,7 +88,19 @@ Json lightsJson() {
 
 Json ignoredJson(const Scene& scene) {
     Json list = Json::array();
-    for (const Ignored& ignored : scene.ignored) list.push_back({{"what", ignored.what}, {"count", ignored.count}});
+    for (const Ignored& ignored : scene.ignored)
+        list.push_back({{"what", ignored.what}, {"count", ignored.count}});
+    return list;
+}
+
+/// What nsaa would do by default.
+Json planJson(const Picture& picture) {
+    ScreenPieces pieces;
+    const ScreenScene screen = project(picture.scene, picture.camera, picture.film, pieces);
+    const Shading shading(picture.scene, picture.camera, picture.film, screen, pieces);
+    Json list = Json::array();
+    for (const PlanEntry& entry : makePlan(picture.scene, screen, pieces, shading, RenderOptions{}).entries)
+        list.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
     return list;
 }
 
@@ -96,7 +112,8 @@ Json infoJson(const Picture& picture) {
             {"cameras", camerasJson(scene)},
             {"camera", resolvedCameraJson(picture)},
             {"lights", lightsJson()},
-            {"ignored", ignoredJson(scene)}};
+            {"ignored", ignoredJson(scene)},
+            {"plan", planJson(picture)}};
 }
 
 /// "name value" a line; lists of objects one object a line.
@@ -107,7 +124,8 @@ void printInWords(const Json& info) {
         } else if (value.is_array()) {
             for (const Json& entry : value) fmt::print("{:<8} {}\n", name, entry.dump());
         } else if (value.is_object()) {
-            for (const auto& [key, entry] : value.items()) fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
+            for (const auto& [key, entry] : value.items())
+                fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
         } else {
             fmt::print("{:<8} {}\n", name, value.get<std::string>());
         }
@@ -126,8 +144,8 @@ void info(const InfoArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("info", "what is in a scene, its resolved camera and lights, what is ignored");
+    CLI::App* command = program.add_subcommand(
+        "info", "what is in a scene, its resolved camera and lights, what is ignored, the plan");
     auto arguments = std::make_shared<InfoArguments>();
     addPictureOptions(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");

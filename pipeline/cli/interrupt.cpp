@@ -27,7 +27,9 @@ void catchInterrupts() {
     sigaction(SIGINT, &action, nullptr);
 }
 
-const std::atomic<bool>& interruptFlag() { return interrupted; }
+const std::atomic<bool>& interruptFlag() {
+    return interrupted;
+}
 
 void throwIfInterrupted() {
     if (interrupted) throw Interrupted();

@@ -7,7 +7,8 @@ namespace edgewise::cli {
 
 inline constexpr int kInterruptedStatus = 130;
 
-/// From now on SIGINT sets interruptFlag(); a second one ends the process at once, leaving nothing half-written.
+/// From now on SIGINT sets interruptFlag(); a second one ends the process at once, leaving nothing
+/// half-written.
 void catchInterrupts();
 
 const std::atomic<bool>& interruptFlag();

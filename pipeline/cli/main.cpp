@@ -22,12 +22,15 @@ Exit status: 0 done; 1 it failed (device, memory, a stated limit met); 2 the com
 
 void parseAndRun(int argc, char** argv) {
     const std::string command_line = quoteCommandLine(std::span(argv + 1, argv + argc));
-    CLI::App program("Exact analytic antialiasing: closed-form prefilter weights over exact visibility.", "edgewise");
-    program.set_version_flag("--version", fmt::format("edgewise {}", version()), "print the version and exit");
+    CLI::App program("Exact analytic antialiasing: closed-form prefilter weights over exact visibility.",
+                     "edgewise");
+    program.set_version_flag("--version", fmt::format("edgewise {}", version()),
+                             "print the version and exit");
     program.set_help_flag("-h,--help", "print this help and exit");
     program.require_subcommand(1);
     program.footer(kFooter);
     addRender(program, command_line);
+    addWeights(program);
     addInfo(program);
     addMethods(program);
     addFilters(program);

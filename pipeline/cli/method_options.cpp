@@ -43,7 +43,8 @@ ShadingChoice readShading(const std::string& text) {
     if (!text.starts_with(kSamples))
         throw InputError("--shading", fmt::format("'{}' is none of closest, centroid, samples:N, hit", text));
     const std::string number = text.substr(kSamples.size());
-    return {ShadingMode::kSamples, static_cast<int>(parseInteger("--shading", number, 1, kMaxShadingSamples))};
+    return {ShadingMode::kSamples,
+            static_cast<int>(parseInteger("--shading", number, 1, kMaxShadingSamples))};
 }
 
 }  // namespace
@@ -53,25 +54,24 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
         ->type_name("cpu|vulkan|auto")
         ->capture_default_str();
     command
-        .add_option("--shading", arguments.shading,
-                    "where a (pixel, primitive) is shaded, for every method alike; hit: sampling methods shade each "
-                    "sample where it lands")
+        .add_option(
+            "--shading", arguments.shading,
+            "where a (pixel, primitive) is shaded, for every method alike; hit: sampling methods shade each "
+            "sample where it lands")
         ->type_name("closest|centroid|samples:N|hit")
         ->capture_default_str();
     command.add_option("--background", arguments.background, "linear colour [0,0,0]")->type_name("R,G,B");
     command.add_option("--threads", arguments.threads, "CPU threads [all]")->type_name("N");
     command
-        .add_option("--memory", arguments.memory,
-                    "ceiling for the buffers, the image is tiled to fit [1024]")
+        .add_option("--memory", arguments.memory, "ceiling for the buffers, the image is tiled to fit [1024]")
         ->type_name("MIB");
     command.add_option("--seed", arguments.seed, "of stochastic methods [0]")->type_name("N");
     command
-        .add_option("--no-skip", arguments.no_skip,
-                    fmt::format("forces what the plan leaves out: {}; repeatable", fmt::join(noSkipNames(), ", ")))
+        .add_option(
+            "--no-skip", arguments.no_skip,
+            fmt::format("forces what the plan leaves out: {}; repeatable", fmt::join(noSkipNames(), ", ")))
         ->type_name("NAME")
         ->allow_extra_args(false);
-    command.add_option("--dump-stages", arguments.dump_stages, "every intermediate as data and as a picture")
-        ->type_name("DIR");
 }
 
 RenderOptions readMethodOptions(const MethodArguments& arguments) {
@@ -91,17 +91,13 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
     if (arguments.seed)
         options.seed = static_cast<std::uint64_t>(
             parseInteger("--seed", *arguments.seed, 0, std::numeric_limits<std::int64_t>::max()));
-    if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
     return options;
 }
 
-void makeDumpFolder(const RenderOptions& options) {
-    if (!options.dump_dir) return;
-    std::error_code error;
-    std::filesystem::create_directories(*options.dump_dir, error);
-    if (!std::filesystem::is_directory(*options.dump_dir, error))
-        throw InputError("--dump-stages",
-                         fmt::format("{} is not a folder and cannot be made one", options.dump_dir->string()));
+ThreadLimit::ThreadLimit(const RenderOptions& options) {
+    if (options.threads > 0)
+        control_.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.threads));
 }
 
 void checkDevice(const MethodArguments& arguments, const MethodSpec& method) {

@@ -1,6 +1,8 @@
 // How a picture is made: the method, its device, and what every method understands.
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
+
 #include <CLI/App.hpp>
 #include <optional>
 #include <string>
@@ -14,17 +16,23 @@ namespace edgewise::cli {
 struct MethodArguments {
     std::string device = "auto";
     std::string shading = "closest";
-    std::optional<std::string> background, threads, memory, seed, dump_stages;
+    std::optional<std::string> background, threads, memory, seed;
     std::vector<std::string> no_skip;
 };
 
-/// Adds --device, --shading, --background, --threads, --memory, --seed, --no-skip, --dump-stages.
+/// Adds --device, --shading, --background, --threads, --memory, --seed, --no-skip.
 void addMethodOptions(CLI::App& command, MethodArguments& arguments);
 
 RenderOptions readMethodOptions(const MethodArguments& arguments);
 
-/// The folder of --dump-stages exists afterwards.
-void makeDumpFolder(const RenderOptions& options);
+/// While it lives, no more threads work than --threads says.
+class ThreadLimit {
+  public:
+    explicit ThreadLimit(const RenderOptions& options);
+
+  private:
+    std::optional<tbb::global_control> control_;
+};
 
 /// Throws FailureError when --device, or the method's own device=, asks for what this build has not.
 void checkDevice(const MethodArguments& arguments, const MethodSpec& method);

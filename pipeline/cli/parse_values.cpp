@@ -26,14 +26,16 @@ std::vector<std::string> split(std::string_view text, char separator) {
 template <typename Value>
 std::from_chars_result readAll(const std::string& text, Value& value) {
     std::from_chars_result result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec == std::errc{} && result.ptr != text.data() + text.size()) result.ec = std::errc::invalid_argument;
+    if (result.ec == std::errc{} && result.ptr != text.data() + text.size())
+        result.ec = std::errc::invalid_argument;
     return result;
 }
 
 template <std::size_t count>
 std::array<double, count> parseList(const std::string& option, const std::string& text, const char* form) {
     const std::vector<std::string> parts = split(text, ',');
-    if (parts.size() != count) throw InputError(option, fmt::format("'{}' is not of the form {}", text, form));
+    if (parts.size() != count)
+        throw InputError(option, fmt::format("'{}' is not of the form {}", text, form));
     std::array<double, count> values;
     for (std::size_t i = 0; i < count; ++i) values[i] = parseNumber(option, parts[i]);
     return values;
@@ -90,8 +92,8 @@ PixelBox parseCrop(const std::string& option, const std::string& text) {
 
 void checkCrop(const std::string& option, const PixelBox& crop, int width, int height) {
     if (crop.x1 > width || crop.y1 > height)
-        throw InputError(option, fmt::format("{},{},{},{} is not inside the picture of {}x{}", crop.x0, crop.y0,
-                                             crop.x1, crop.y1, width, height));
+        throw InputError(option, fmt::format("{},{},{},{} is not inside the picture of {}x{}", crop.x0,
+                                             crop.y0, crop.x1, crop.y1, width, height));
 }
 
 }  // namespace edgewise::cli

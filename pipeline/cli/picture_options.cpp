@@ -68,22 +68,31 @@ CameraOptions readCamera(const PictureArguments& arguments) {
 }  // namespace
 
 void addPictureOptions(CLI::App& command, PictureArguments& arguments) {
-    command.add_option("SCENE", arguments.scene, ".gltf or .glb file, or a name of `edgewise scenes`")->required();
-    command.add_option("--size", arguments.size, "pixels; yfov (orthographic: ymag) holds [1024 wide, the camera's aspect ratio]")
+    command.add_option("SCENE", arguments.scene, ".gltf or .glb file, or a name of `edgewise scenes`")
+        ->required();
+    command
+        .add_option("--size", arguments.size,
+                    "pixels; yfov (orthographic: ymag) holds [1024 wide, the camera's aspect ratio]")
         ->type_name("WxH");
-    command.add_option("--crop", arguments.crop, "half-open part of the output, with the bits of the whole image")
+    command
+        .add_option("--crop", arguments.crop,
+                    "half-open part of the output, with the bits of the whole image")
         ->type_name("X0,Y0,X1,Y1");
     command.add_option("--shift", arguments.shift, "moves the film by a fraction of a pixel [0,0]")
         ->type_name("DX,DY");
-    command.add_option("--scene", arguments.scene_choice, "the file's scene; a name wins over an index [the file's own]")
+    command
+        .add_option("--scene", arguments.scene_choice,
+                    "the file's scene; a name wins over an index [the file's own]")
         ->type_name("NAME|INDEX");
     command
-        .add_option("--camera", arguments.camera,
-                    "camera node, in depth-first order; a name wins over an index [the first, or one that frames the "
-                    "scene]")
+        .add_option(
+            "--camera", arguments.camera,
+            "camera node, in depth-first order; a name wins over an index [the first, or one that frames the "
+            "scene]")
         ->type_name("NAME|INDEX");
     command.add_option("--eye", arguments.eye, "a camera of your own stands here")->type_name("X,Y,Z");
-    command.add_option("--target", arguments.target, "and looks here [the scene's centre]")->type_name("X,Y,Z");
+    command.add_option("--target", arguments.target, "and looks here [the scene's centre]")
+        ->type_name("X,Y,Z");
     command.add_option("--fovy", arguments.fovy, "with this vertical angle [45]")->type_name("DEG");
 }
 

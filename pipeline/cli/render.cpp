@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -33,7 +32,7 @@ struct RenderArguments {
     MethodArguments making;
     std::string method = "nsaa";
     std::vector<std::string> outputs;
-    std::optional<std::string> exposure, stats;
+    std::optional<std::string> exposure, stats, dump_stages;
     bool explain = false, quiet = false;
     std::string command_line;
 };
@@ -53,15 +52,27 @@ void checkOutputs(const RenderArguments& arguments) {
     if (arguments.stats) checkOutputPath(*arguments.stats);
 }
 
-/// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in its file's
-/// format.
+/// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in
+/// its file's format.
 void requireMemoryFor(const PixelBox& crop) {
     constexpr double kBytesPerPixel = 4 * 8 + 4 + 2 * 5 * 4;  // RGBA, edge; five floats, raw and compressed
     const double needed = kBytesPerPixel * crop.width() * crop.height();
-    const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double machine =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (needed > machine)
-        throw FailureError("memory", fmt::format("a picture of {}x{} needs {:.0f} MiB, this machine has {:.0f}",
-                                                 crop.width(), crop.height(), needed / 0x1p20, machine / 0x1p20));
+        throw FailureError("memory",
+                           fmt::format("a picture of {}x{} needs {:.0f} MiB, this machine has {:.0f}",
+                                       crop.width(), crop.height(), needed / 0x1p20, machine / 0x1p20));
+}
+
+/// The folder of --dump-stages exists afterwards.
+void makeDumpFolder(const RenderOptions& options) {
+    if (!options.dump_dir) return;
+    std::error_code error;
+    std::filesystem::create_directories(*options.dump_dir, error);
+    if (!std::filesystem::is_directory(*options.dump_dir, error))
+        throw InputError("--dump-stages", fmt::format("{} is not a folder and cannot be made one",
+                                                      options.dump_dir->string()));
 }
 
 WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const MethodResult& result,
@@ -91,13 +102,11 @@ void render(const RenderArguments& arguments) {
     readExposure(arguments.exposure);
     const Prefilter filter = readFilter(arguments.filter);
     const MethodSpec method = parseMethod(arguments.method);
-    const RenderOptions options = readMethodOptions(arguments.making);
+    RenderOptions options = readMethodOptions(arguments.making);
+    if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
     checkDevice(arguments.making, method);
 
-    std::optional<tbb::global_control> threads;
-    if (options.threads > 0)
-        threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-
+    const ThreadLimit threads(options);
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     const Picture picture = loadPicture(arguments.picture, progress);
     warnOfIgnored(picture.scene);
@@ -128,7 +137,11 @@ void addRender(CLI::App& program, const std::string& command_line) {
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
     command->add_option("--exposure", arguments->exposure, "PNG only [0]")->type_name("EV");
-    command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")->type_name("FILE.json");
+    command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")
+        ->type_name("FILE.json");
+    command
+        ->add_option("--dump-stages", arguments->dump_stages, "every intermediate as data and as a picture")
+        ->type_name("DIR");
     command->add_flag("--explain", arguments->explain, "print the plan in words");
     command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
     command->callback([arguments] { render(*arguments); });

@@ -44,7 +44,8 @@ void printError(std::string_view message) {
 }
 
 void logToStandardError() {
-    auto logger = std::make_shared<spdlog::logger>("edgewise", std::make_shared<spdlog::sinks::stderr_sink_st>());
+    auto logger =
+        std::make_shared<spdlog::logger>("edgewise", std::make_shared<spdlog::sinks::stderr_sink_st>());
     logger->set_pattern("%n: %l: %v");
     spdlog::set_default_logger(std::move(logger));
 }

@@ -6,7 +6,8 @@
 namespace edgewise::cli {
 
 void addScenes(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("scenes", "the scenes that have a name, one a line, and where they are");
+    CLI::App* command =
+        program.add_subcommand("scenes", "the scenes that have a name, one a line, and where they are");
     command->callback([] {
         for (const SceneInfo& scene : sceneNames())
             fmt::print("{:<16} {} ({})\n", scene.name, scene.what, scene.where);

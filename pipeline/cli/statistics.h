@@ -8,8 +8,8 @@
 
 namespace edgewise::cli {
 
-/// {"stages": {name: seconds}, "counts": {}, "peak_mib": x, "plan": [{"stage", "runs", "why"}], ...}, with the peak of
-/// this process so far.
+/// {"stages": {name: seconds}, "counts": {}, "peak_mib": x, "plan": [{"stage", "runs", "why"}], ...}, with
+/// the peak of this process so far.
 std::string statisticsJson(const MethodResult& result);
 
 /// One line a stage: whether it runs, and why.

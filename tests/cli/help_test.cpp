@@ -14,19 +14,38 @@ TEST(Help, NamesEveryCommand) {
     const ProgramRun run = runProgram({"--help"});
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.err, "");
-    for (const char* command : {"render", "info", "methods", "filters", "scenes"})
+    for (const char* command : {"render", "weights", "info", "methods", "filters", "scenes"})
         EXPECT_NE(run.out.find(std::string("\n  ") + command), std::string::npos) << command;
 }
 
 TEST(Help, OfRenderNamesEveryFlag) {
     const ProgramRun run = runProgram({"render", "--help"});
     EXPECT_EQ(run.status, 0);
-    for (const char* flag :
-         {"-o", "--size WxH", "--crop X0,Y0,X1,Y1", "--shift DX,DY", "--scene NAME|INDEX", "--camera NAME|INDEX",
-          "--eye X,Y,Z", "--target X,Y,Z", "--fovy DEG", "--method M", "--filter F", "--radius R", "--sigma S",
-          "--device cpu|vulkan|auto", "--shading closest|centroid|samples:N|hit", "--background R,G,B",
-          "--exposure EV", "--threads N", "--memory MIB", "--stats FILE.json", "--explain", "--no-skip NAME",
-          "--dump-stages DIR", "--seed N", "--quiet"})
+    for (const char* flag : {"-o",
+                             "--size WxH",
+                             "--crop X0,Y0,X1,Y1",
+                             "--shift DX,DY",
+                             "--scene NAME|INDEX",
+                             "--camera NAME|INDEX",
+                             "--eye X,Y,Z",
+                             "--target X,Y,Z",
+                             "--fovy DEG",
+                             "--method M",
+                             "--filter F",
+                             "--radius R",
+                             "--sigma S",
+                             "--device cpu|vulkan|auto",
+                             "--shading closest|centroid|samples:N|hit",
+                             "--background R,G,B",
+                             "--exposure EV",
+                             "--threads N",
+                             "--memory MIB",
+                             "--stats FILE.json",
+                             "--explain",
+                             "--no-skip NAME",
+                             "--dump-stages DIR",
+                             "--seed N",
+                             "--quiet"})
         EXPECT_NE(run.out.find(flag), std::string::npos) << flag;
 }
 
@@ -57,6 +76,7 @@ TEST(Info, IsJsonWithTheResolvedCamera) {
     EXPECT_EQ(info.at("lights").size(), 3u);
     EXPECT_TRUE(info.contains("cameras"));
     EXPECT_TRUE(info.contains("ignored"));
+    EXPECT_FALSE(info.at("plan").empty());
 }
 
 TEST(Info, TakesACameraOfYourOwn) {

@@ -1,4 +1,5 @@
-// `edgewise render` as scripts rely on it: the same file every time, both EXR windows, crops, statistics, Ctrl-C.
+// `edgewise render` as scripts rely on it: the same file every time, both EXR windows, crops, statistics,
+// Ctrl-C.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +70,8 @@ TEST(Render, ACropIsThatPartOfTheWholeBitForBit) {
     int lit = 0;
     for (int y = 5; y < 31; ++y) {
         for (int x = 17; x < 43; ++x) {
-            for (int c = 0; c < 5; ++c) EXPECT_EQ(crop.at(x, y)[c], whole.at(x, y)[c]) << x << ' ' << y << ' ' << c;
+            for (int c = 0; c < 5; ++c)
+                EXPECT_EQ(crop.at(x, y)[c], whole.at(x, y)[c]) << x << ' ' << y << ' ' << c;
             lit += crop.at(x, y)[3] > 0.0f;
         }
     }
@@ -134,9 +136,9 @@ TEST(Render, NothingIsDrawnWhereThereIsNoTerminal) {
 TEST(Render, CtrlCEndsWith130AndLeavesNothing) {
     const TemporaryFolder folder;
     // Far more work than the interrupt waits for, on any machine: 64 Mpx of 256 samples each.
-    const ProgramRun run = runProgram(
-        {"render", "torus-20k", "-o", "a.exr", "--size", "8192x8192", "--method", "ssaa:16", "--stats", "a.json"},
-        folder.path(), 500);
+    const ProgramRun run = runProgram({"render", "torus-20k", "-o", "a.exr", "--size", "8192x8192",
+                                       "--method", "ssaa:16", "--stats", "a.json"},
+                                      folder.path(), 500);
     EXPECT_EQ(run.status, 130) << run.err;
     EXPECT_TRUE(folder.names().empty());
 }

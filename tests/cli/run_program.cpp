@@ -39,7 +39,8 @@ void redirect(int descriptor, const std::filesystem::path& path, int flags) {
 
 }  // namespace
 
-ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder, int interrupt_after_ms) {
+ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder,
+                      int interrupt_after_ms) {
     const TemporaryFolder streams;
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork");

@@ -14,7 +14,8 @@ struct ProgramRun {
 
 using Arguments = std::vector<std::string>;
 
-/// Runs it to its end in `folder`, standard input closed; SIGINT is sent after `interrupt_after_ms`, unless negative.
+/// Runs it to its end in `folder`, standard input closed; SIGINT is sent after `interrupt_after_ms`, unless
+/// negative.
 ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder = ".",
                       int interrupt_after_ms = -1);
 

@@ -19,7 +19,9 @@ std::ostream& operator<<(std::ostream& out, const WrongCase& wrong) {
     return out;
 }
 
-Arguments renderScene(const std::string& scene) { return {"render", scene, "-o", "a.exr", "--method", "none"}; }
+Arguments renderScene(const std::string& scene) {
+    return {"render", scene, "-o", "a.exr", "--method", "none"};
+}
 
 /// A command line that is right, with more arguments behind.
 Arguments renderWith(Arguments more) {
@@ -45,28 +47,31 @@ TEST_P(WrongCommandLine, IsOneLineAndAStatus) {
     EXPECT_EQ(folder.names(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Program, WrongCommandLine,
-    testing::Values(WrongCase{{}, "subcommand"}, WrongCase{{"paint"}, "paint"}, WrongCase{{"--paint"}, "--paint"},
-                    WrongCase{{"filters", "box"}, "box"}, WrongCase{{"render"}, "SCENE"},
-                    WrongCase{{"render", "torus-20k"}, "--output"},
-                    WrongCase{{"info"}, "SCENE"}, WrongCase{{"info", "no-such-scene"}, "no-such-scene"}));
+INSTANTIATE_TEST_SUITE_P(Program, WrongCommandLine,
+                         testing::Values(WrongCase{{}, "subcommand"}, WrongCase{{"paint"}, "paint"},
+                                         WrongCase{{"--paint"}, "--paint"},
+                                         WrongCase{{"filters", "box"}, "box"}, WrongCase{{"render"}, "SCENE"},
+                                         WrongCase{{"render", "torus-20k"}, "--output"},
+                                         WrongCase{{"info"}, "SCENE"},
+                                         WrongCase{{"info", "no-such-scene"}, "no-such-scene"}));
 
-INSTANTIATE_TEST_SUITE_P(
-    Output, WrongCommandLine,
-    testing::Values(WrongCase{{"render", "torus-20k", "-o", "a.jpg"}, "a.jpg"},
-                    WrongCase{{"render", "torus-20k", "-o", "a"}, ".exr"},
-                    WrongCase{{"render", "torus-20k", "-o", ""}, "output"},
-                    WrongCase{{"render", "torus-20k", "-o", "none/a.exr"}, "none"},
-                    WrongCase{{"render", "torus-20k", "-o"}, "--output"},
-                    WrongCase{renderWith({"--stats", "none/a.json"}), "none"},
-                    WrongCase{renderWith({"--dump-stages", "empty.glb"}), "empty.glb"}));
+INSTANTIATE_TEST_SUITE_P(Output, WrongCommandLine,
+                         testing::Values(WrongCase{{"render", "torus-20k", "-o", "a.jpg"}, "a.jpg"},
+                                         WrongCase{{"render", "torus-20k", "-o", "a"}, ".exr"},
+                                         WrongCase{{"render", "torus-20k", "-o", ""}, "output"},
+                                         WrongCase{{"render", "torus-20k", "-o", "none/a.exr"}, "none"},
+                                         WrongCase{{"render", "torus-20k", "-o"}, "--output"},
+                                         WrongCase{renderWith({"--stats", "none/a.json"}), "none"},
+                                         WrongCase{renderWith({"--dump-stages", "empty.glb"}), "empty.glb"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Film, WrongCommandLine,
-    testing::Values(WrongCase{renderWith({"--size", "0x5"}), "--size"}, WrongCase{renderWith({"--size", "5x0"}), "--size"},
-                    WrongCase{renderWith({"--size", "-3x5"}), "--size"}, WrongCase{renderWith({"--size", "5"}), "--size"},
-                    WrongCase{renderWith({"--size", "5x"}), "--size"}, WrongCase{renderWith({"--size", "5x5x5"}), "--size"},
+    testing::Values(WrongCase{renderWith({"--size", "0x5"}), "--size"},
+                    WrongCase{renderWith({"--size", "5x0"}), "--size"},
+                    WrongCase{renderWith({"--size", "-3x5"}), "--size"},
+                    WrongCase{renderWith({"--size", "5"}), "--size"},
+                    WrongCase{renderWith({"--size", "5x"}), "--size"},
+                    WrongCase{renderWith({"--size", "5x5x5"}), "--size"},
                     WrongCase{renderWith({"--size", "nanxnan"}), "--size"},
                     WrongCase{renderWith({"--size", "5.5x5"}), "--size"},
                     WrongCase{renderWith({"--size", " 5x5"}), "--size"},
@@ -82,17 +87,17 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongCase{renderWith({"--shift", "nan,0"}), "--shift"},
                     WrongCase{renderWith({"--shift", "1e400,0"}), "--shift"}));
 
-INSTANTIATE_TEST_SUITE_P(
-    Filter, WrongCommandLine,
-    testing::Values(WrongCase{renderWith({"--filter", "soft"}), "soft"},
-                    WrongCase{renderWith({"--filter", ""}), "filter"},
-                    WrongCase{renderWith({"--radius", "0"}), "radius"},
-                    WrongCase{renderWith({"--radius", "-1"}), "radius"},
-                    WrongCase{renderWith({"--radius", "nan"}), "--radius"},
-                    WrongCase{renderWith({"--radius", "inf"}), "--radius"},
-                    WrongCase{renderWith({"--radius", "2px"}), "--radius"},
-                    WrongCase{renderWith({"--sigma", "0"}), "sigma"},
-                    WrongCase{renderWith({"--filter", "box", "--sigma", "1"}), "sigma"}));
+INSTANTIATE_TEST_SUITE_P(Filter, WrongCommandLine,
+                         testing::Values(WrongCase{renderWith({"--filter", "soft"}), "soft"},
+                                         WrongCase{renderWith({"--filter", ""}), "filter"},
+                                         WrongCase{renderWith({"--radius", "0"}), "radius"},
+                                         WrongCase{renderWith({"--radius", "-1"}), "radius"},
+                                         WrongCase{renderWith({"--radius", "nan"}), "--radius"},
+                                         WrongCase{renderWith({"--radius", "inf"}), "--radius"},
+                                         WrongCase{renderWith({"--radius", "2px"}), "--radius"},
+                                         WrongCase{renderWith({"--sigma", "0"}), "sigma"},
+                                         WrongCase{renderWith({"--filter", "box", "--sigma", "1"}),
+                                                   "sigma"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Method, WrongCommandLine,
@@ -116,20 +121,18 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Input, WrongCommandLine,
-    testing::Values(WrongCase{renderScene("nowhere.glb"), "nowhere.glb"},
-                    WrongCase{renderScene("empty.glb"), "empty.glb"},
-                    WrongCase{renderScene("text.gltf"), "text.gltf"},
-                    WrongCase{renderScene("scene.txt"), "scene.txt"},
-                    WrongCase{renderScene("."), "."},
-                    WrongCase{renderScene("two\nlines"), "lines"},
-                    WrongCase{renderWith({"--camera", "99"}), "99"}, WrongCase{renderWith({"--camera", "nobody"}), "nobody"},
-                    WrongCase{renderWith({"--scene", "7"}), "7"},
-                    WrongCase{renderWith({"--target", "0,0,1"}), "--target"},
-                    WrongCase{renderWith({"--eye", "0,0"}), "--eye"},
-                    WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,1", "--fovy", "30"}), "target"},
-                    WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "0"}), "fovy"},
-                    WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "180"}), "fovy"},
-                    WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "nan"}), "fovy"}));
+    testing::Values(
+        WrongCase{renderScene("nowhere.glb"), "nowhere.glb"},
+        WrongCase{renderScene("empty.glb"), "empty.glb"}, WrongCase{renderScene("text.gltf"), "text.gltf"},
+        WrongCase{renderScene("scene.txt"), "scene.txt"}, WrongCase{renderScene("."), "."},
+        WrongCase{renderScene("two\nlines"), "lines"}, WrongCase{renderWith({"--camera", "99"}), "99"},
+        WrongCase{renderWith({"--camera", "nobody"}), "nobody"}, WrongCase{renderWith({"--scene", "7"}), "7"},
+        WrongCase{renderWith({"--target", "0,0,1"}), "--target"},
+        WrongCase{renderWith({"--eye", "0,0"}), "--eye"},
+        WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,1", "--fovy", "30"}), "target"},
+        WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "0"}), "fovy"},
+        WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "180"}), "fovy"},
+        WrongCase{renderWith({"--eye", "0,0,1", "--target", "0,0,0", "--fovy", "nan"}), "fovy"}));
 
 }  // namespace
 }  // namespace edgewise::test

@@ -28,7 +28,8 @@ class AtomicFile : public testing::Test {
         return {std::istreambuf_iterator<char>(file), {}};
     }
     std::ptrdiff_t fileCount() const {
-        return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+        return std::distance(std::filesystem::directory_iterator(folder_),
+                             std::filesystem::directory_iterator());
     }
 
     std::filesystem::path folder_;

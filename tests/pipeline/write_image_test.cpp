@@ -30,7 +30,8 @@ WriteOptions makeOptions() {
     WriteOptions options;
     options.width = 20;
     options.height = 10;
-    options.metadata = {{"version", "1.2.3"}, {"command", "edgewise render x"}, {"device", "cpu"}, {"seed", "7"}};
+    options.metadata = {
+        {"version", "1.2.3"}, {"command", "edgewise render x"}, {"device", "cpu"}, {"seed", "7"}};
     return options;
 }
 
@@ -112,7 +113,7 @@ TEST(WriteImage, PngIsSrgbEncodedAndRoundedToNearest) {
     EXPECT_EQ(pngValue(1.0, 0), 255);
     EXPECT_EQ(pngValue(0.5, 0), 188);
     EXPECT_EQ(pngValue(0.18, 0), 118);
-    EXPECT_EQ(pngValue(0.0031308, 0), 10);         // 12.92 * 0.0031308 * 255 = 10.31
+    EXPECT_EQ(pngValue(0.0031308, 0), 10);  // 12.92 * 0.0031308 * 255 = 10.31
     EXPECT_EQ(pngValue(1.4999 / 255 / 12.92, 0), 1);
     EXPECT_EQ(pngValue(1.5001 / 255 / 12.92, 0), 2);
 }
@@ -125,7 +126,8 @@ TEST(WriteImage, PngClampsAndExposes) {
 }
 
 TEST(WriteImage, NonFinitePixelsAreNamed) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         ImageBuffer image = makeImage();
         image.rgba[8 + 2].y = bad;
         for (const ImageFormat format : {ImageFormat::kExr, ImageFormat::kPng}) {
@@ -148,7 +150,8 @@ TEST(WriteImage, WhatOverflowsFloatIsNoExr) {
 TEST(WriteImage, ExtensionChoosesTheFormat) {
     EXPECT_EQ(imageFormat("a.exr"), ImageFormat::kExr);
     EXPECT_EQ(imageFormat("dir.exr/A.PNG"), ImageFormat::kPng);
-    for (const char* name : {"a", "a.jpg", ".png.", "exr", ""}) EXPECT_THROW(imageFormat(name), InputError) << name;
+    for (const char* name : {"a", "a.jpg", ".png.", "exr", ""})
+        EXPECT_THROW(imageFormat(name), InputError) << name;
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/filter_options.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/method_options.h"
+#include "pipeline/cli/parse_values.h"
+#include "pipeline/cli/picture_options.h"
+#include "pipeline/error.h"
+#include "pipeline/methods/nsaa.h"
+#include "pipeline/progress_bar.h"
+#include "pipeline/project.h"
+
+namespace edgewise::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WeightsArguments {
+    PictureArguments picture;
+    FilterArguments filter;
+    MethodArguments making;
+    std::string pixel;
+};
+
+glm::ivec2 readPixel(const std::string& text, const Film& film) {
+    const glm::dvec2 pixel = parsePair("--pixel", text);
+    const bool whole = pixel == glm::floor(pixel);
+    if (!whole || pixel.x < 0 || pixel.y < 0 || pixel.x >= film.width || pixel.y >= film.height)
+        throw InputError(
+            "--pixel", fmt::format("'{}' is no pixel of a picture of {}x{}", text, film.width, film.height));
+    return pixel;
+}
+
+/// Every number reads back exactly. `layers` are the triangles seen through each other, front to back: one,
+/// while everything is opaque.
+Json ownerJson(const Scene& scene, const PixelOwner& owner) {
+    const TriangleRef triangle = findTriangle(scene, owner.index);
+    const Geometry& geometry = scene.geometry[triangle.geometry];
+    return {{"index", owner.index},
+            {"node", geometry.node},
+            {"mesh", geometry.mesh},
+            {"primitive", geometry.primitive},
+            {"triangle", triangle.triangle},
+            {"weight", owner.weight},
+            {"color", {owner.color.r, owner.color.g, owner.color.b}},
+            {"layers", {owner.index}}};
+}
+
+Json filterJson(const Prefilter& filter) {
+    return {{"name", filter.name},
+            {"radius", filter.radius},
+            {"sigma", filter.sigma ? Json(*filter.sigma) : Json(nullptr)}};
+}
+
+void weights(const WeightsArguments& arguments) {
+    const Prefilter filter = readFilter(arguments.filter);
+    const RenderOptions options = readMethodOptions(arguments.making);
+    checkDevice(arguments.making, parseMethod("nsaa"));
+    const ThreadLimit threads(options);
+    ProgressBar quiet(false, interruptFlag());
+    const Picture picture = loadPicture(arguments.picture, quiet);
+    const glm::ivec2 pixel = readPixel(arguments.pixel, picture.film);
+    const PixelReport report =
+        pixelWeights({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel.x, pixel.y);
+
+    Json json{{"pixel", {pixel.x, pixel.y}},     {"size", {picture.film.width, picture.film.height}},
+              {"filter", filterJson(filter)},    {"weights", Json::array()},
+              {"background", report.background}, {"sum", report.sum}};
+    for (const PixelOwner& owner : report.owners) json["weights"].push_back(ownerJson(picture.scene, owner));
+    fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void addWeights(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("weights", "which primitives make up a pixel, with which weights (JSON)");
+    auto arguments = std::make_shared<WeightsArguments>();
+    addPictureOptions(*command, arguments->picture);
+    command->add_option("--pixel", arguments->pixel, "column and row, from the top left")
+        ->type_name("X,Y")
+        ->required();
+    addFilterOptions(*command, arguments->filter);
+    addMethodOptions(*command, arguments->making);
+    command->callback([arguments] { weights(*arguments); });
+}
+
+}  // namespace edgewise::cli
