@@ -51,24 +51,28 @@ class KernelTruth {
     explicit KernelTruth(const Prefilter& filter) : f(filter), R(filter.radius) {
         for (int i = -static_cast<int>(std::ceil(R)); i <= std::ceil(R); ++i) knots.push_back(i);
         for (Real knot : {-R, -R / 2, Real(0), R / 2, R}) knots.push_back(knot);
+        for (Real scale = 1; f.sigma && scale <= 64; scale *= 2)
+            for (Real side : {-1, 1}) knots.push_back(side * scale * *f.sigma);
         if (f.radial())
-            total = 2 * Real(M_PIl) * integrate([this](Real r) { return r * shape(r); }, 0, R, 64).value;
+            total = 2 * Real(M_PIl) * integrateCut([this](Real r) { return r * shape(r); }, 0, R, knots, 1).value;
         else
-            total = integrateCut([this](Real x) { return shape(x); }, -R, R, knots, 8).value;
+            total = integrateCut([this](Real x) { return shape(x); }, -R, R, knots, 1).value;
     }
 
     /// Radial: W(r). Separable: k(x).
     Real operator()(Real x) const { return shape(x) / total; }
 
-    /// G(r) / r^2 = int_0^1 u W(u r) du.
+    /// G(r) / r^2 = (1/r^2) int_0^r s W(s) ds.
     Integral fanDensity(Real r) const {
-        return integrate([&](Real u) { return u * (*this)(u * r); }, 0, 1, 4);
+        Integral sum = integrateCut([&](Real s) { return s * (*this)(s); }, 0, r, knots, 1);
+        if (r > 0) return {sum.value / (r * r), sum.error / (r * r)};
+        return {(*this)(0) / 2, 0};
     }
 
     Integral massBelow(Real x) const {
         if (x <= -R) return {};
         if (x >= R) return {1, 0};
-        return integrateCut(*this, -R, x, knots, 4);
+        return integrateCut(*this, -R, x, knots, 1);
     }
 
     const Prefilter& f;

