@@ -1,7 +1,12 @@
-// edgeTerms() for one instruction set: define EDGEWISE_ISA (a namespace) and EDGEWISE_LANES (1 or 8), then include.
+// edgeTerms() for one instruction set: define EDGEWISE_ISA (a namespace) and EDGEWISE_LANES (1, 2, 4 or 8), then include.
 // Nothing here may call an inline function of another namespace: it could be linked into code for an older machine.
 #include "analytic/lane_kernel.h"
 #include "analytic/shared_text.h"
+
+#if defined(__x86_64__) && EDGEWISE_LANES > 1
+#include <immintrin.h>
+#define EDGEWISE_X86
+#endif
 
 namespace edgewise::EDGEWISE_ISA {
 namespace {
@@ -18,6 +23,10 @@ void edgeTerms(const LaneKernel& kernel, const EdgeInput& input, EdgeTerms& term
 void edgeTerms(const LaneKernel& kernel, const EdgeInput& input, EdgeTerms& terms) {
     terms.touched = terms.crossed[0] = terms.crossed[1] = 0;
     for (int first = 0; first < 8; first += EDGEWISE_LANES) {
+        if (!boxesMeet(input, kernel.radius, first)) {
+            store(bits{}, first, terms.value);
+            continue;
+        }
         const Line line = lineAt(input, first);
         if (kernel.form == TermForm::kStrip)
             stripTerms(kernel, line, first, terms);

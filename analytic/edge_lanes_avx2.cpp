@@ -1,3 +1,3 @@
 #define EDGEWISE_ISA avx2
-#define EDGEWISE_LANES 8
+#define EDGEWISE_LANES 4
 #include "analytic/edge_lanes.inl"

@@ -19,7 +19,7 @@ EDGEWISE_FN real phi1Mean(const RuleView& rule, real h, real t, real step) {
 /// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it. [E9]
 EDGEWISE_FN real gaussianMean(const LaneKernel& kernel, real h, Piece piece) {
     const real sigmas = piece.length / kernel.sigma;
-    const real wanted = -nearestInteger(0.5 - sigmas * (1.0 / 3.0));
+    const real wanted = nearestInteger(sigmas * (1.0 / 3.0) + 0.5);  // ceil, or one more
     const real parts = wanted < 1.0 ? splat(1.0) : wanted;
     const real part = sigmas / parts;
     const real hs = h * kernel.inverse_reach, ts = piece.t1 * kernel.inverse_reach;
@@ -62,8 +62,10 @@ EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece)
     const real c = halfChord(h, splat(kernel.inner_radius));
     const real first_end = smaller(piece.t2, -c), second_start = larger(piece.t1, c);
     real angle = splat(0.0);
-    angle = angle + (piece.t1 < first_end ? subtendedAngle(h, piece.t1, first_end) : splat(0.0));
-    angle = angle + (second_start < piece.t2 ? subtendedAngle(h, second_start, piece.t2) : splat(0.0));
+    const real first = piece.t2 < -c ? piece.length : first_end - piece.t1;
+    const real second = piece.t1 > c ? piece.length : piece.t2 - second_start;
+    angle = angle + (piece.t1 < first_end ? subtendedAngle(h, piece.t1, first_end, first) : splat(0.0));
+    angle = angle + (second_start < piece.t2 ? subtendedAngle(h, second_start, piece.t2, second) : splat(0.0));
     const real t1 = larger(piece.t1, -c), t2 = smaller(piece.t2, c);
     const real rest = larger(t2 - t1, splat(0.0));
     piece.length = piece.t1 < -c ? rest : (piece.t2 > c ? rest : piece.length);

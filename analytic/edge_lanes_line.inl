@@ -35,30 +35,22 @@ EDGEWISE_FN bits toFixed(real x) {
     const real size = absolute(scaled);
     const real rounded = size < 0x1p52 ? (size + 0x1p52) - 0x1p52 : size;
     const real signed_value = scaled < 0.0 ? -rounded : rounded;
-#if EDGEWISE_LANES == 1
-    return static_cast<bits>(signed_value);
-#else
-    return __builtin_convertvector(signed_value, bits);
-#endif
+    return truncated(signed_value);
 }
 
 /// Terms below 2^-1000 are 0, though fixed point would see to it: the rule is the same on every device.
 EDGEWISE_FN real flushTiny(real x) { return absolute(x) < 0x1p-1000 ? splat(0.0) : x; }
 
-EDGEWISE_FN void store(bits value, int first, std::int64_t* out) {
-#if EDGEWISE_LANES == 1
-    out[first] = value;
-#else
-    for (int i = 0; i < 8; ++i) out[first + i] = value[i];
-#endif
-}
+EDGEWISE_FN void store(bits value, int first, std::int64_t* out) { __builtin_memcpy(out + first, &value, sizeof value); }
+EDGEWISE_FN void store(real value, int first, double* out) { __builtin_memcpy(out + first, &value, sizeof value); }
 
-EDGEWISE_FN void store(real value, int first, double* out) {
-    for (int i = 0; i < EDGEWISE_LANES; ++i) out[first + i] = laneOf(value, i);
-}
+EDGEWISE_FN unsigned laneSet(mask m, int first) { return laneSet(m) << first; }
 
-EDGEWISE_FN unsigned laneSet(mask m, int first) {
-    unsigned set = 0;
-    for (int i = 0; i < EDGEWISE_LANES; ++i) set |= (laneIs(m, i) ? 1u : 0u) << (first + i);
-    return set;
+/// Whether the segment's box meets the box of the supports of the lanes from `first` on; rounding has its margin.
+EDGEWISE_FN bool boxesMeet(const EdgeInput& in, double radius, int first) {
+    const double reach = radius * (1 + 0x1p-40) + 0x1p-32;
+    const double x0 = in.sample_x + first - reach, x1 = in.sample_x + (first + EDGEWISE_LANES - 1) + reach;
+    const double y0 = in.sample_y - reach, y1 = in.sample_y + reach;
+    return !((in.a_x < x0 && in.b_x < x0) || (in.a_x > x1 && in.b_x > x1) || (in.a_y < y0 && in.b_y < y0) ||
+             (in.a_y > y1 && in.b_y > y1));
 }

@@ -22,7 +22,7 @@ EDGEWISE_FN real kernelIntegral(const TableView& table, real y) {
     return K;
 }
 
-/// Twice the mean of K(x) k(y) over a piece inside cell (i, j), times its length.
+/// int K(x) k(y) dt over a piece inside cell (i, j).
 EDGEWISE_FN real cellTerm(const TableView& table, const Line& line, int i, int j, real t, real step) {
     const double* node = table.rule.node;
     const double* weight = table.rule.weight;
@@ -61,7 +61,8 @@ EDGEWISE_FN real stripSum(const TableView& table, const Line& line, real t1, rea
             y_before = y_after;
             const mask meets = from < to;
             if (!any(meets)) continue;
-            const real here = cellTerm(table, line, i, j, from, to - from);
+            const mask whole = (from == line.t_a) & (to == line.t_b);  // its length is known better than t_b - t_a
+            const real here = cellTerm(table, line, i, j, from, whole ? line.length : to - from);
             sum = sum + (meets ? here : splat(0.0));
         }
     }

@@ -1,9 +1,8 @@
-// Depth planes about a cell's corner, compared with a floating-point filter and an exact fallback.
+// Depth planes about a cell's corner, compared with a floating-point filter.
 #pragma once
 
 #include <cmath>
 
-#include "analytic/exact_depth.h"
 #include "analytic/screen_triangle.h"
 
 namespace edgewise {
@@ -28,19 +27,13 @@ inline LocalPlane localPlane(const ScreenScene& scene, const ScreenTriangle& t, 
 
 inline double depthAt(const LocalPlane& p, double x, double y) { return p.c + (p.a * x + p.b * y); }
 
-/// Whether p is seen in front of q at (x, y) from the origin; counts the exact evaluations.
-inline bool inFront(const ScreenScene& scene, glm::dvec2 origin, const LocalPlane& p, const LocalPlane& q, double x,
-                    double y, std::uint64_t& exact_count) {
-    if (p.plane == q.plane) return p.owner < q.owner;
+/// Compares p and q at (x, y) from the origin: 1 where p is surely in front, -1 where q is, 0 where rounding leaves it open.
+/// Triangles of one plane, and pieces of one owner, are decided by index.
+inline int filteredOrder(const LocalPlane& p, const LocalPlane& q, double x, double y) {
+    if (p.plane == q.plane) return p.owner < q.owner ? 1 : -1;
     const double d = depthAt(p, x, y) - depthAt(q, x, y);
     const double error = p.error + q.error;
-    if (d > error) return true;
-    if (d < -error) return false;
-    ++exact_count;
-    const glm::dvec2 offset = origin - scene.anchor_px;
-    const int sign =
-        depthDifferenceSign(scene.planes[p.plane], scene.planes[q.plane], offset.x + x, offset.y + y);
-    return sign != 0 ? sign > 0 : p.owner < q.owner;
+    return d > error ? 1 : d < -error ? -1 : 0;
 }
 
 }  // namespace edgewise

@@ -12,14 +12,17 @@ namespace {
 
 using Lanes = std::array<std::int64_t, PixelWeights::kLanes>;
 
-/// Rounding can only touch a border that is within this of a segment: 2^-40 of the radius is 2^12 units of 2^-52.
+/// A segment farther than this from a support cannot be rounded into it: 2^-40 is far more than its few roundings of 2^-53.
 constexpr double kSlack = 1.0 + 0x1p-40;
+
+/// Sums may leave the range on the way: they come back, modulo 2^64.
+void wrappingAdd(FixedWeight& sum, FixedWeight term) {
+    sum = static_cast<FixedWeight>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(term));
+}
 
 void addLanes(OwnerTable& table, Owner owner, const std::int64_t* value, std::int64_t sign) {
     Lanes& weight = table.row(owner).weight;
-    for (int i = 0; i < PixelWeights::kLanes; ++i)
-        weight[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(weight[i]) +
-                                              static_cast<std::uint64_t>(sign * value[i]));
+    for (int i = 0; i < PixelWeights::kLanes; ++i) wrappingAdd(weight[i], sign * value[i]);
 }
 
 EdgeInput inputOf(glm::dvec2 sample, const VisibleSegment& s, const CarrierLine& l) {
@@ -90,7 +93,7 @@ void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out
     for (int i = 0; i < s.count; ++i) {
         s.conflicts += static_cast<unsigned>(
             shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, base_owner[i], s.shares));
-        for (const BorderShare& share : s.shares) s.table.row(share.owner).weight[i] += share.share;
+        for (const BorderShare& share : s.shares) wrappingAdd(s.table.row(share.owner).weight[i], share.share);
     }
     const std::vector<OwnerTable::Row>& rows = s.table.sorted();
     for (int i = 0; i < s.count; ++i) {

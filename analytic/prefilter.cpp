@@ -40,8 +40,9 @@ constexpr double kMostPolyCancellation = 256.0;
 /// Below the screen's grid or beyond its guard band a support means nothing; smaller sigmas leave doubles' range.
 constexpr double kLeastRadius = 0x1p-32, kMostRadius = 0x1p20, kLeastSigmaToRadius = 0x1p-30;
 constexpr double kMostLanczosRadius = 256.0;  // its table has four intervals a pixel
-/// Fixed point 2^-60 in 63 bits holds less than 8; half of it leaves room for a term's rounding.
-constexpr double kMostAbsoluteIntegral = 4.0;
+/// Fixed point 2^-60 in 63 bits holds less than 8. With A = int |W|: a weight is at most (1 + A)/2, a fan term, which lies in
+/// a half disk, A/2, and a strip term sup |K| int |k| <= (1 + sqrt A)/2 sqrt A: for A = 12 all are below 7.8.
+constexpr double kMostAbsoluteIntegral = 12.0;
 
 std::string quoted(std::string_view text) {
     std::string quote(1, '\'');
@@ -136,7 +137,7 @@ void checkLobes(const Prefilter& filter) {
         }
         absolute /= polyIntegral(filter.poly);
     }
-    if (!(absolute < kMostAbsoluteIntegral)) refuse(filter.name, "its negative lobes are too strong: int |W| must be below 4 int W");
+    if (!(absolute < kMostAbsoluteIntegral)) refuse(filter.name, "its negative lobes are too strong: int |W| must be below 12 int W");
 }
 
 double radialValue(const Prefilter& f, double r2) {

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "analytic/exact_depth.h"
 #include "analytic/leaf_lines.h"
 
 namespace edgewise {
 namespace {
+
+constexpr std::uint32_t kBorder = 0xffffffffu;  ///< in the place of a line: the cell's border
 
 /// What the sweep knows of a line at the present slab.
 struct Track {
@@ -55,6 +58,7 @@ struct SlabSweep::State {
     std::vector<std::uint64_t> mask;
     Profile above, below;
     std::vector<Break> breaks;
+    double y_mid = 0.0;  ///< of the slab, from the origin
     std::size_t next_entry, next_event, next_horizontal;
 
     void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt, CellOutput& output);
@@ -66,7 +70,11 @@ struct SlabSweep::State {
     void emitHorizontals(std::size_t slab);
     void closePiece(std::uint32_t line, const FinePoint& end);
     void toggle(std::uint32_t line);
-    Owner nearest(double x, double y);
+    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's borders.
+    Owner nearest(std::uint32_t left, std::uint32_t right, std::size_t slab);
+    bool exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
+                        std::size_t slab);
+    f64::dd exactMiddle(std::uint32_t line, double border_grid, std::size_t slab) const;
     int compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const;
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
     FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
@@ -163,12 +171,37 @@ void SlabSweep::State::toggle(std::uint32_t line) {
     for (std::size_t w = 0; w < leaf.words; ++w) mask[w] ^= leaf.masks[line * leaf.words + w];
 }
 
-Owner SlabSweep::State::nearest(double x, double y) {
+/// Half the sum of a line's abscissae at the slab's ends, or of a border's, from the anchor.
+f64::dd SlabSweep::State::exactMiddle(std::uint32_t line, double border_grid, std::size_t slab) const {
+    const double anchor = scene->anchor_px.x;
+    if (line == kBorder) return offsetFrom(border(border_grid), anchor);
+    const f64::dd sum = f64::ddAdd(offsetFrom(xOf(topPoint(line, slab)), anchor),
+                                   offsetFrom(xOf(bottomPoint(line, slab)), anchor));
+    return {0.5 * sum.hi, 0.5 * sum.lo};
+}
+
+/// Decided at the canonical middle, which knows nothing of the cell's frame.
+bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
+                                      std::size_t slab) {
+    ++out->counts.exact_depth;
+    const f64::dd x = f64::ddAdd(exactMiddle(left, cell.min.x, slab), exactMiddle(right, cell.max.x, slab));
+    const f64::dd y = f64::ddAdd(offsetFrom(leaf.ordinates[slab], scene->anchor_px.y),
+                                 offsetFrom(leaf.ordinates[slab + 1], scene->anchor_px.y));
+    const int sign = depthDifferenceSign(scene->planes[p.plane], scene->planes[q.plane], {0.5 * x.hi, 0.5 * x.lo},
+                                         {0.5 * y.hi, 0.5 * y.lo});
+    return sign != 0 ? sign > 0 : p.owner < q.owner;
+}
+
+Owner SlabSweep::State::nearest(std::uint32_t left, std::uint32_t right, std::size_t slab) {
+    const double x0 = left == kBorder ? leftBorder() : tracks[left].x_mid;
+    const double x1 = right == kBorder ? rightBorder() : tracks[right].x_mid;
+    const double x = 0.5 * (x0 + x1);
     const LocalPlane* best = nullptr;
     for (std::size_t w = 0; w < leaf.words; ++w) {
         for (std::uint64_t bits = mask[w]; bits != 0; bits &= bits - 1) {
             const LocalPlane& p = leaf.planes[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
-            if (!best || inFront(*scene, origin, p, *best, x, y, out->counts.exact_depth)) best = &p;
+            const int order_now = best ? filteredOrder(p, *best, x, y_mid) : 1;
+            if (order_now > 0 || (order_now == 0 && exactlyInFront(p, *best, left, right, slab))) best = &p;
         }
     }
     return best ? best->owner : kBackground;
@@ -184,23 +217,19 @@ void SlabSweep::State::sweep(std::size_t slab) {
         const int side = key >= line.in1 ? line.side_after : key < line.in0 ? line.side_before : 0;
         if (side < 0) toggle(i);
     }
-    const double y = 0.5 * (leaf.frame.localY(leaf.ordinates[slab]) + leaf.frame.localY(leaf.ordinates[slab + 1]));
-    const double x_end = rightBorder();
-    double x = leftBorder();
-    const auto middle = [&](std::size_t next) {
-        return 0.5 * (x + (next < order.size() ? tracks[order[next]].x_mid : x_end));
-    };
-    Owner owner = below.first = nearest(middle(0), y);
+    y_mid = 0.5 * (leaf.frame.localY(leaf.ordinates[slab]) + leaf.frame.localY(leaf.ordinates[slab + 1]));
+    const auto next = [&](std::size_t i) { return i < order.size() ? order[i] : kBorder; };
+    Owner owner = below.first = nearest(kBorder, next(0), slab);
     below.bounds.clear();
     for (std::size_t i = 0; i < order.size();) {
-        std::uint32_t chosen = order[i];
-        x = tracks[order[i]].x_mid;
-        for (const std::uint32_t first = order[i]; i < order.size() && compare(order[i], first, slab) == 0; ++i) {
+        const std::uint32_t first = order[i];
+        std::uint32_t chosen = first;
+        for (; i < order.size() && (order[i] == first || compare(order[i], first, slab) == 0); ++i) {
             toggle(order[i]);
             const Carrier &c = leaf.lines[order[i]].carrier, &best = leaf.lines[chosen].carrier;
             if (c.isEdge() != best.isEdge() ? c.isEdge() : c.ref < best.ref) chosen = order[i];
         }
-        const Owner after = nearest(middle(i), y);
+        const Owner after = nearest(first, next(i), slab);
         if (after == owner) continue;
         Track& t = tracks[chosen];
         t.labelled_in = slab, t.new_left = owner, t.new_right = after;

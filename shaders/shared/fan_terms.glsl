@@ -9,9 +9,9 @@ EDGEWISE_FN real halfChord(real h, real R) {
     return sqrt(square > EDGEWISE_REAL(0.0) ? square : splat(EDGEWISE_REAL(0.0)));
 }
 
-/// The signed angle at the sample of the piece [t1, t2]; for pieces that keep to one side of the foot point. [E5]
-EDGEWISE_FN real subtendedAngle(real h, real t1, real t2) {
-    EDGEWISE_PRECISE real y = h * (t2 - t1);
+/// The signed angle at the sample of the piece [t1, t2], `len` px long, at one side of the foot point. [E5]
+EDGEWISE_FN real subtendedAngle(real h, real t1, real t2, real len) {
+    EDGEWISE_PRECISE real y = h * len;
     EDGEWISE_PRECISE real x = h * h + t1 * t2;
     return atan2Real(y, x);
 }

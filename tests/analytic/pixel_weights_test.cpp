@@ -94,7 +94,7 @@ TEST(PixelWeights, HandMadeMapsGiveTheirKnownWeights) {
             EXPECT_LE(std::abs(toDouble(covered.at(i)) - 0.25), 8 * 0x1p-53) << name;
         }
         // an island of 2^-65 square pixels: kernel value times area, and the rest is background's
-        const auto& island = hardMaps(filter.radius)[11].second;
+        const auto island = hardMaps(filter.radius)[11].second;
         const auto tiny = get(island);
         const double expected = evaluate(filter, 0.1, 0.1) * 0x1p-65;
         const double got = tiny.count(3) ? toDouble(tiny.at(3)) : 0.0;
