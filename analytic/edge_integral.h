@@ -16,7 +16,7 @@ namespace edgewise {
 /// A kernel prepared for its terms; `lanes` points into the rest.
 struct EdgeKernel {
     LaneKernel lanes;
-    std::array<GaussRule, 4> piece_rules;
+    std::array<GaussRule, kPieceRules> piece_rules;
     GaussRule poly_rule;
     std::vector<double> poly;
     std::shared_ptr<const KernelTable> table;

@@ -19,20 +19,20 @@ EDGEWISE_FN real phi1Mean(const RuleView& rule, real h, real t, real step) {
 /// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it. [E9]
 EDGEWISE_FN real gaussianMean(const LaneKernel& kernel, real h, Piece piece) {
     const real sigmas = piece.length / kernel.sigma;
-    const real wanted = nearestInteger(sigmas * (1.0 / 3.0) + 0.5);  // ceil, or one more
+    const real wanted = nearestInteger(sigmas * (1.0 / kLongestPieceSigmas) + 0.5);  // ceil, or one more
     const real parts = wanted < 1.0 ? splat(1.0) : wanted;
     const real part = sigmas / parts;
     const real hs = h * kernel.inverse_reach, ts = piece.t1 * kernel.inverse_reach;
     const real step = piece.length * kernel.inverse_reach / parts;
     real mean = splat(0.0);
     double lower = -1.0;
-    for (int r = 0; r < 4; ++r) {
-        const double upper = r == 3 ? 1e300 : kernel.piece_rules[r].limit_sigma;
-        const mask mine = (part > lower ? 1.0 : splat(0.0)) * (part <= upper ? 1.0 : splat(0.0)) > 0.5;
+    for (int r = 0; r < kPieceRules; ++r) {
+        const double upper = r == kPieceRules - 1 ? 1e300 : kernel.piece_rules[r].limit_sigma;
+        const mask mine = (part > lower) & (part <= upper);
         lower = upper;
         if (!any(mine)) continue;
         real sum = splat(0.0);
-        for (double i = 0.0; any(mine) && any(i < parts); i += 1.0) {
+        for (double i = 0.0; any((i < parts) & mine); i += 1.0) {
             const real here = phi1Mean(kernel.piece_rules[r].rule, hs, ts + step * i, step);
             sum = sum + (i < parts ? here : splat(0.0));
         }

@@ -13,7 +13,8 @@ EDGEWISE_FN Line lineAt(const EdgeInput& in, int first) {
     const real dx = x - in.origin_x, dy = y - in.origin_y;  // exact: both are multiples of 2^-32 below 2^21
     const dd nx = {splat(in.nx_hi), splat(in.nx_lo)}, ny = {splat(in.ny_hi), splat(in.ny_lo)};
     const dd c = {splat(in.c_hi), splat(in.c_lo)};
-    const dd cross = ddAdd(ddAdd(ddMulReal(nx, dx), ddMulReal(ny, dy)), c);
+    dd cross = ddAdd(ddMulReal(nx, dx), ddMulReal(ny, dy));
+    if (in.c_hi != 0.0 || in.c_lo != 0.0) cross = ddAdd(cross, c);  // adding 0 would leave the bits as they are
     Line line;
     line.h = cross.hi / in.line_length;
     const real a_x = in.a_x - x, a_y = in.a_y - y, b_x = in.b_x - x, b_y = in.b_y - y;  // exact

@@ -15,6 +15,10 @@ struct RuleView {
     const double* weight = nullptr;
 };
 
+/// A Gaussian's segment is cut into equal parts no longer than this, and a part takes one of these many rules.
+inline constexpr double kLongestPieceSigmas = 3.0;
+inline constexpr int kPieceRules = 3;
+
 /// A Gaussian piece no longer than `limit_sigma` sigma takes `rule`. [E9]
 struct PieceRule {
     double limit_sigma = 0.0;
@@ -37,7 +41,7 @@ struct LaneKernel {
     double scale = 0.0;          ///< F_in = h L' mean(..) scale
     double sigma = 0.0;          ///< Gaussian
     double inverse_reach = 0.0;  ///< Gaussian: 1/(sqrt 2 sigma)
-    PieceRule piece_rules[4];
+    PieceRule piece_rules[kPieceRules];
     const double* poly = nullptr;  ///< c_k / (2k + 2): g in powers of (r/R)^2
     RuleView poly_rule;
     TableView table;
