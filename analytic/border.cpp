@@ -83,7 +83,7 @@ void cutInLongestGap(Crossings& c) {
 }
 
 void sortCrossings(Crossings& c) {
-    const auto key = [](const BorderCrossing& x) { return std::tie(x.order, x.position, x.line, x.before, x.after, x.doubt); };
+    const auto key = [](const BorderCrossing& x) { return std::tie(x.order, x.position, x.before, x.after, x.doubt); };
     std::sort(c.begin(), c.end(), [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
 }
 

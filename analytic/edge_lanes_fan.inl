@@ -110,6 +110,9 @@ EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first,
     const real through = chord * (1.0 - in_a) * (1.0 - in_b);
     const mask touched = in_a + in_b + through > 0.5;
     terms.touched |= laneSet(touched, first);
+    const real right_a = (line.a_x == kernel.radius ? one : none) * (line.a_y == 0.0 ? one : none);
+    const real right_b = (line.b_x == kernel.radius ? one : none) * (line.b_y == 0.0 ? one : none);
+    terms.at_right |= laneSet(right_a + right_b > 0.5, first);
     if (!any(touched)) {
         store(toFixed(none), first, terms.value);
         return;

@@ -63,6 +63,7 @@ struct EdgeTerms {
     alignas(64) double order[2][8];  ///< what crossings are sorted by: the angle in turns; y, px
     alignas(64) double doubt[2][8];  ///< how far rounding may have moved `order`
     unsigned touched;                ///< lanes whose support meets the segment: the others' value is 0
+    unsigned at_right;               ///< radial: lanes where an end is exactly the circle's rightmost point
     unsigned crossed[2];
 };
 

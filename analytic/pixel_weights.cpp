@@ -38,11 +38,13 @@ struct PixelWeights::State {
 
     bool reaches(const VisibleSegment& segment) const;
     void addBorder(const VisibleSegment& segment, Owner left, Owner right);
+    Owner baseOwner(const BorderOwners& base, int i) const;
 
     EdgeKernel kernel;
     EdgeTermsFunction edge_terms;
     glm::dvec2 first{0.0};
     int count = 0;
+    unsigned touched = 0, at_right = 0;
     EdgeTerms terms{};
     OwnerTable table;
     std::array<std::vector<BorderCrossing>, kLanes> crossings;
@@ -66,12 +68,21 @@ void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, O
                                         slot == 0 ? right : left, segment.line});
 }
 
+/// An edge may touch the disk at its rightmost point from outside: the inner side is the disk's. A segment within the
+/// disk may end there: then the outer side is.
+Owner PixelWeights::State::baseOwner(const BorderOwners& base, int i) const {
+    if (kernel.lanes.form == TermForm::kStrip) return base.outer[i];
+    if (!(touched >> i & 1u)) return base.center[i];
+    return at_right >> i & 1u ? base.outer[i] : base.inner[i];
+}
+
 PixelWeights::PixelWeights(const Prefilter& filter) : state_(std::make_unique<State>(filter)) {}
 PixelWeights::~PixelWeights() = default;
 
 void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
     state_->first = first_sample_px;
     state_->count = count;
+    state_->touched = state_->at_right = 0;
     state_->table.clear();
     for (auto& list : state_->crossings) list.clear();
 }
@@ -82,17 +93,19 @@ void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, O
     s.edge_terms(s.kernel.lanes, inputOf(s.first, segment, line), s.terms);
     const unsigned touched = s.terms.touched & ((1u << s.count) - 1u);
     if (touched == 0) return;
+    s.touched |= touched;
+    s.at_right |= s.terms.at_right;
     s.term_count += static_cast<unsigned>(__builtin_popcount(touched));
     addLanes(s.table, left, s.terms.value, 1);
     addLanes(s.table, right, s.terms.value, -1);
     s.addBorder(segment, left, right);
 }
 
-void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {
+void PixelWeights::finish(const BorderOwners& base, std::vector<OwnerWeight>& out, std::size_t* offset) {
     State& s = *state_;
     for (int i = 0; i < s.count; ++i) {
         s.conflicts += static_cast<unsigned>(
-            shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, base_owner[i], s.shares));
+            shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, s.baseOwner(base, i), s.shares));
         for (const BorderShare& share : s.shares) wrappingAdd(s.table.row(share.owner).weight[i], share.share);
     }
     const std::vector<OwnerTable::Row>& rows = s.table.sorted();

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "analytic/row_owners.h"
+
 namespace edgewise {
 namespace {
 
@@ -62,18 +64,6 @@ void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 
     }
 }
 
-/// Owners of the points (x + k, row), k = 0 .. count - 1, just right of them.
-void ownersAlongRow(const VisibleMap& map, int row, double x, int count, const OwnerClasses& classes, Owner* out) {
-    const auto index = static_cast<std::size_t>(row - map.row_begin);
-    const auto begin = map.rows.begin() + static_cast<std::ptrdiff_t>(map.row_offset[index]);
-    const auto end = map.rows.begin() + static_cast<std::ptrdiff_t>(map.row_offset[index + 1]);
-    auto next = std::upper_bound(begin, end, x, [](double v, const RowOwner& entry) { return v < entry.x_px; });
-    for (int k = 0; k < count; ++k) {
-        while (next != end && next->x_px <= x + k) ++next;
-        out[k] = classes.of(next == begin ? begin->owner : std::prev(next)->owner);
-    }
-}
-
 }  // namespace
 
 WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius) {
@@ -118,7 +108,8 @@ void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32
     }
 }
 
-void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out) {
+void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const BorderOwners& base,
+                            WeightTile& out) {
     bool begun = false;
     for (const Span& span : row_) {
         if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
@@ -129,7 +120,7 @@ void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, 
     if (!begun && options_.skip_interior) {
         interior_pixels_ += static_cast<std::uint64_t>(count);
         for (int k = 0; k < count; ++k) {
-            out.entries.push_back({base[k], FixedWeight{1} << kWeightBits});
+            out.entries.push_back({base.center[k], FixedWeight{1} << kWeightBits});
             out.offset.push_back(out.entries.size());
         }
         return;
@@ -145,15 +136,19 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
     out.box = box;
     out.offset.assign(1, 0);
     out.entries.clear();
-    Owner base[PixelWeights::kLanes];
+    Owner outer[PixelWeights::kLanes], inner[PixelWeights::kLanes], center[PixelWeights::kLanes];
     for (int y = box.y0; y < box.y1; ++y) {
         const double sample_y = y + 0.5 + offset_px.y;
         collectRow(map, segments, classes, sample_y);
         for (int x = box.x0; x < box.x1; x += PixelWeights::kLanes) {
             const int count = std::min(PixelWeights::kLanes, box.x1 - x);
             const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
-            ownersAlongRow(map, y + static_cast<int>(offset_px.y), first.x + radius_, count, classes, base);
-            runGroup(map, first, count, base, out);
+            const int row = y + static_cast<int>(offset_px.y);
+            const auto into = [&](Owner* list) { return [&, list](int k, Owner o) { list[k] = classes.of(o); }; };
+            ownersAlongRow(map, row, first.x, count, Side::kRight, into(center));
+            ownersAlongRow(map, row, first.x + radius_, count, Side::kLeft, into(inner));
+            ownersAlongRow(map, row, first.x + radius_, count, Side::kRight, into(outer));
+            runGroup(map, first, count, {outer, inner, center}, out);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analytic/pixel_weights.h"
+#include "analytic/row_owners.h"
 #include "analytic/visibility.h"
 
 namespace edgewise::witness {
@@ -23,24 +24,17 @@ inline Window windowAround(glm::dvec2 centre_px, double reach_px) {
     return {lo(centre_px.x), lo(centre_px.y), hi(centre_px.x), hi(centre_px.y)};
 }
 
-/// The owner just right of x on the row of samples that y belongs to.
-inline Owner rowOwner(const VisibleMap& map, double x_px, int row) {
-    const auto k = static_cast<std::size_t>(row - map.row_begin);
-    Owner owner = map.rows[map.row_offset[k]].owner;
-    for (std::size_t i = map.row_offset[k]; i < map.row_offset[k + 1] && map.rows[i].x_px <= x_px; ++i)
-        owner = map.rows[i].owner;
-    return owner;
-}
-
 inline ProductWeights productWeights(const VisibleMap& map, const Prefilter& filter, glm::ivec2 pixel) {
     const glm::dvec2 sample = glm::dvec2(pixel) + 0.5;
     PixelWeights engine(filter);
     engine.begin(sample, 1);
     for (const VisibleSegment& s : map.segments) engine.add(s, map.lines[s.line], s.left, s.right);
-    const Owner base = rowOwner(map, sample.x + filter.radius, pixel.y);
+    const Owner outer = ownerOnRow(map, pixel.y, sample.x + filter.radius, Side::kRight);
+    const Owner inner = ownerOnRow(map, pixel.y, sample.x + filter.radius, Side::kLeft);
+    const Owner center = ownerOnRow(map, pixel.y, sample.x, Side::kRight);
     ProductWeights result;
     std::size_t offset[2] = {0, 0};
-    engine.finish(&base, result.weights, offset);
+    engine.finish({&outer, &inner, &center}, result.weights, offset);
     result.terms = engine.terms();
     result.label_conflicts = engine.label_conflicts();
     result.segments = map.segments.size();
