@@ -5,14 +5,20 @@
 namespace edgewise {
 namespace {
 
-/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A vertex
-/// that both triangles share lies in both planes and says nothing.
+/// A vertex that both triangles share lies in both planes, as far as rounded planes can say so: those of nearly
+/// coplanar triangles may be equal elsewhere, and then the planes decide, not the vertex.
+bool sharesVertex(const ScreenTriangle& t, std::size_t k, const ScreenTriangle& other, const Carrier& depth_line) {
+    const bool shared = std::find(other.vertex.begin(), other.vertex.end(), t.vertex[k]) != other.vertex.end();
+    return shared && passesNear(depth_line, t.p_px[k]);
+}
+
+/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A shared
+/// vertex says nothing.
 int signsAtVertices(const ScreenTriangle& t, const ScreenTriangle& other, const LocalPlane& p, const LocalPlane& q,
-                    glm::dvec2 origin) {
+                    const Carrier& depth_line, glm::dvec2 origin) {
     int signs = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t id = t.vertex[k];
-        if (id == other.vertex[0] || id == other.vertex[1] || id == other.vertex[2]) continue;
+        if (sharesVertex(t, k, other, depth_line)) continue;
         const glm::dvec2 v = t.p_px[k] - origin;
         const double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
         // Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
@@ -44,13 +50,14 @@ bool boxesOverlap(const ScreenTriangle& s, const ScreenTriangle& t) {
     return true;
 }
 
-/// Whether some edge of s has t surely on its outer side.
+/// Whether some edge of s has t on its outer side, where t may touch the edge's ends: surely.
 bool separates(const ScreenTriangle& s, const ScreenTriangle& t) {
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec2 a = s.p_px[k], e = s.p_px[(k + 1) % 3] - a;
         bool outside = true;
         for (const glm::dvec2& v : t.p_px) {
             const glm::dvec2 d = v - a;
+            if (v == a || d == e) continue;
             const double px = e.x * d.y, py = e.y * d.x;
             outside = outside && px - py < -3.0 * 0x1p-53 * (std::abs(px) + std::abs(py));
         }
@@ -72,8 +79,7 @@ bool meetInVertex(const LeafLine& p, const LeafLine& q) {
 /// The vertices that two triangles share lie on the line where their planes are equal.
 void noteSharedVertices(const ScreenTriangle& s, const ScreenTriangle& t, LeafLine& line) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const bool shared = std::find(t.vertex.begin(), t.vertex.end(), s.vertex[k]) != t.vertex.end();
-        if (shared && !line.passesThrough(s.p_px[k]) && line.through_count < line.through.size())
+        if (sharesVertex(s, k, t, line.carrier) && !line.passesThrough(s.p_px[k]) && line.through_count < line.through.size())
             line.through[line.through_count++] = s.p_px[k];
     }
 }
@@ -132,9 +138,10 @@ void LeafLines::addDepthLines(const ScreenScene& scene, std::span<const std::uin
                 addDepthLine(scene, s, t);
                 continue;
             }
-            if (ordered(p, q, lo, hi)) continue;
-            if (signsAtVertices(s, t, p, q, frame.origin) != 3 || signsAtVertices(t, s, p, q, frame.origin) != 3) continue;
-            if (!boxesOverlap(s, t) || separates(s, t) || separates(t, s)) continue;
+            if (ordered(p, q, lo, hi) || !boxesOverlap(s, t) || separates(s, t) || separates(t, s)) continue;
+            const Carrier line = depthCarrier(scene, LineRef::depth(p.plane, q.plane));
+            if (signsAtVertices(s, t, p, q, line, frame.origin) != 3) continue;
+            if (signsAtVertices(t, s, p, q, line, frame.origin) != 3) continue;
             addDepthLine(scene, s, t);
         }
     }
