@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "analytic/base_point.h"
 #include "analytic/border.h"
 #include "analytic/edge_integral.h"
 #include "analytic/owner_table.h"
@@ -14,6 +16,8 @@ using Lanes = std::array<std::int64_t, PixelWeights::kLanes>;
 
 /// A segment farther than this from a support cannot be rounded into it: 2^-40 is far more than its few roundings of 2^-53.
 constexpr double kSlack = 1.0 + 0x1p-40;
+/// ... nor moved by its points' rests, nor come near to the base point of one.
+constexpr double kMargin = 4 * kGridPx;
 
 /// Sums may leave the range on the way: they come back, modulo 2^64.
 void wrappingAdd(FixedWeight& sum, FixedWeight term) {
@@ -37,7 +41,9 @@ struct PixelWeights::State {
     explicit State(const Prefilter& filter) : kernel(filter), edge_terms(chooseEdgeTerms()) {}
 
     bool reaches(const VisibleSegment& segment) const;
+    bool radial() const { return kernel.lanes.form != TermForm::kStrip; }
     void addBorder(const VisibleSegment& segment, Owner left, Owner right);
+    void addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
     EdgeKernel kernel;
     EdgeTermsFunction edge_terms;
@@ -46,13 +52,14 @@ struct PixelWeights::State {
     EdgeTerms terms{};
     OwnerTable table;
     std::array<std::vector<BorderCrossing>, kLanes> crossings;
+    std::array<BasePoint, kLanes> bases;
     std::vector<BorderShare> shares;
     std::uint64_t term_count = 0, conflicts = 0;
 };
 
 /// Whether the segment's box meets the box of the supports.
 bool PixelWeights::State::reaches(const VisibleSegment& segment) const {
-    const double reach = kernel.lanes.radius * kSlack + kGridPx;
+    const double reach = kernel.lanes.radius * kSlack + kMargin;
     const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
     return std::min(a.x, b.x) <= reach + (count - 1) && std::max(a.x, b.x) >= -reach && std::min(a.y, b.y) <= reach &&
            std::max(a.y, b.y) >= -reach;
@@ -62,8 +69,19 @@ void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, O
     for (int slot = 0; slot < 2; ++slot)
         for (int i = 0; i < count; ++i)
             if (terms.crossed[slot] >> i & 1u)
-                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], slot == 0 ? left : right,
+                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], terms.spread[slot][i], slot == 0 ? left : right,
                                         slot == 0 ? right : left, segment.line});
+}
+
+/// Lanes whose point (sample.x + R, sample.y) the segment's box comes near to.
+void PixelWeights::State::addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
+    const double R = kernel.lanes.radius, margin = kMargin;
+    const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
+    if (std::min(a.y, b.y) > margin || std::max(a.y, b.y) < -margin) return;
+    const double from = std::max(0.0, std::ceil(std::min(a.x, b.x) - R - margin));
+    const double to = std::min(count - 1.0, std::floor(std::max(a.x, b.x) - R + margin));
+    for (int i = static_cast<int>(from); i <= to; ++i)
+        considerBase(bases[i], radial(), R, {first.x + i, first.y}, segment, line, left, right);
 }
 
 PixelWeights::PixelWeights(const Prefilter& filter) : state_(std::make_unique<State>(filter)) {}
@@ -74,11 +92,13 @@ void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
     state_->count = count;
     state_->table.clear();
     for (auto& list : state_->crossings) list.clear();
+    state_->bases.fill(BasePoint());
 }
 
 void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
     State& s = *state_;
     if (left == right || !s.reaches(segment)) return;
+    s.addBases(segment, line, left, right);
     s.edge_terms(s.kernel.lanes, inputOf(s.first, segment, line), s.terms);
     const unsigned touched = s.terms.touched & ((1u << s.count) - 1u);
     if (touched == 0) return;
@@ -91,8 +111,8 @@ void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, O
 void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {
     State& s = *state_;
     for (int i = 0; i < s.count; ++i) {
-        s.conflicts += static_cast<unsigned>(
-            shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, base_owner[i], s.shares));
+        const Owner base = s.bases[i].known() ? s.bases[i].owner : base_owner[i];
+        s.conflicts += static_cast<unsigned>(shareBorder(s.crossings[i], s.radial(), base, s.shares));
         for (const BorderShare& share : s.shares) wrappingAdd(s.table.row(share.owner).weight[i], share.share);
     }
     const std::vector<OwnerTable::Row>& rows = s.table.sorted();
