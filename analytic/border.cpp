@@ -40,28 +40,65 @@ std::optional<Owner> labelBefore(const Crossings& c, Cluster cluster) {
     return found;
 }
 
-/// Gives the cluster's labels, not its positions, an order in which they chain from `label`; returns the last one.
-Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
-    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        std::size_t next = i;
-        while (next < cluster.last && c[next].before != label) ++next;
-        if (next == cluster.last) next = i;
-        std::swap(c[i].before, c[next].before);
-        std::swap(c[i].after, c[next].after);
-        label = c[i].after;
+/// The cluster's crossings in an order in which their labels chain from `label`, all of them where that is possible: an
+/// Eulerian path by Hierholzer's way, labels being its nodes; those that it cannot reach come last.
+std::vector<std::size_t> chain(const Crossings& c, Cluster cluster, Owner label) {
+    constexpr std::size_t kStart = ~std::size_t{0};
+    std::vector<bool> used(c.size(), false);
+    std::vector<std::size_t> walk{kStart}, path;
+    while (!walk.empty()) {
+        const Owner here = walk.back() == kStart ? label : c[walk.back()].after;
+        std::size_t next = cluster.first;
+        while (next < cluster.last && (used[next] || c[next].before != here)) ++next;
+        if (next < cluster.last) {
+            used[next] = true;
+            walk.push_back(next);
+        } else {
+            if (walk.back() != kStart) path.push_back(walk.back());
+            walk.pop_back();
+        }
     }
-    return label;
+    std::reverse(path.begin(), path.end());
+    for (std::size_t i = cluster.first; i < cluster.last; ++i)
+        if (!used[i]) path.push_back(i);
+    return path;
 }
 
-/// The label before the first crossing: clusters that leave a label as it was do not tell, the first that does decides.
+/// Puts the cluster's labels, not its positions, into the order in which they chain from `label`; returns the last one.
+Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
+    if (cluster.last - cluster.first == 1) return c[cluster.first].after;
+    const auto begin = c.begin() + static_cast<std::ptrdiff_t>(cluster.first);
+    const Crossings sorted(begin, c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
+    auto at = begin;
+    for (std::size_t i : chain(sorted, {0, sorted.size()}, label)) {
+        at->before = sorted[i].before;
+        at->after = sorted[i].after;
+        ++at;
+    }
+    return c[cluster.last - 1].after;
+}
+
+/// The label that leads into a cluster which leaves it as it was: a corner that only touches the border. The order of the
+/// segments around their vertex tells, if their labels chain in it.
+std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
+    Crossings fan(c.begin() + static_cast<std::ptrdiff_t>(cluster.first), c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
+    const auto key = [](const BorderCrossing& x) { return std::tie(x.spread, x.order, x.before, x.after); };
+    std::sort(fan.begin(), fan.end(), [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
+    for (std::size_t i = 0; i + 1 < fan.size(); ++i)
+        if (fan[i].after != fan[i + 1].before) return std::nullopt;
+    return fan.front().before;
+}
+
+/// The label before the first crossing: the first cluster that changes labels decides, else the first that can be sorted.
 Owner firstLabel(const Crossings& c, Owner base) {
+    std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
         if (const std::optional<Owner> label = labelBefore(c, cluster)) return *label;
+        if (!touching) touching = labelAroundVertex(c, cluster);
         first = cluster.last;
     }
-    const bool known = std::any_of(c.begin(), c.end(), [=](const BorderCrossing& x) { return x.before == base; });
-    return known && c.size() == clusterEnd(c, 0) ? base : c[0].before;
+    return touching.value_or(base);
 }
 
 /// Cuts the circle in its longest gap, where no cluster can be.

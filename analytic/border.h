@@ -10,13 +10,14 @@ namespace edgewise {
 
 /// A visible segment crosses the border: along it the owner changes from `before` to `after`. `position` is the border's
 /// integral up to here in fixed point, the whole is 2^60; it is not monotone where a kernel has negative lobes, so
-/// crossings are sorted by `order`, which rounding may have moved by `doubt`.
+/// crossings are sorted by `order`, which rounding may have moved by `doubt`;
+/// `spread` sorts those of segments that part at one vertex.
 struct BorderCrossing {
     double order;
     std::int64_t position;
     double doubt;
+    double spread;
     Owner before, after;
-    std::uint32_t line;
 };
 
 /// A stretch of the border.

@@ -21,7 +21,7 @@ namespace {
 
 void edgeTerms(const LaneKernel& kernel, const EdgeInput& input, EdgeTerms& terms);
 void edgeTerms(const LaneKernel& kernel, const EdgeInput& input, EdgeTerms& terms) {
-    terms.touched = terms.at_right = terms.crossed[0] = terms.crossed[1] = 0;
+    terms.touched = terms.crossed[0] = terms.crossed[1] = 0;
     for (int first = 0; first < 8; first += EDGEWISE_LANES) {
         if (!boxesMeet(input, kernel.radius, first)) {
             store(bits{}, first, terms.value);

@@ -88,13 +88,16 @@ EDGEWISE_FN real fanTerm(const LaneKernel& kernel, real h, Piece piece) {
 }
 
 /// Where the line at t meets the circle: its angle in turns, and how far rounding may have moved it.
-EDGEWISE_FN void circleCrossing(const LaneKernel& kernel, const Line& line, real t, mask crossed, int slot, int first,
-                                EdgeTerms& terms) {
+EDGEWISE_FN void circleCrossing(const LaneKernel& kernel, const Line& line, real t, real in_a, real in_b, mask crossed,
+                                int slot, int first, EdgeTerms& terms) {
     terms.crossed[slot] |= laneSet(crossed, first);
     if (!any(crossed)) return;
     const real turns = atan2Real(t * line.d_y - line.h * line.d_x, line.h * line.d_y + t * line.d_x) * 0.15915494309189535;
     store(toFixed(turns), first, terms.position[slot]);
     store(turns, first, terms.order[slot]);
+    const real steep = line.h / nonZero(absolute(t));  // t = -0 is an entry still
+    const real slope = slot == 0 ? -steep : steep;
+    store(spreadFrom(line, t, slope, in_a, in_b), first, terms.spread[slot]);
     // h errs by 4u R, so the half chord c by 4u R^2/c, or sqrt(8u) R when the line is that near to a tangent
     const real amplified = smaller(kernel.radius / larger(absolute(t), splat(0x1p-1000)), splat(0x1p27));
     store((1.0 + amplified) * 0x1p-51, first, terms.doubt[slot]);
@@ -110,9 +113,6 @@ EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first,
     const real through = chord * (1.0 - in_a) * (1.0 - in_b);
     const mask touched = in_a + in_b + through > 0.5;
     terms.touched |= laneSet(touched, first);
-    const real right_a = (line.a_x == kernel.radius ? one : none) * (line.a_y == 0.0 ? one : none);
-    const real right_b = (line.b_x == kernel.radius ? one : none) * (line.b_y == 0.0 ? one : none);
-    terms.at_right |= laneSet(right_a + right_b > 0.5, first);
     if (!any(touched)) {
         store(toFixed(none), first, terms.value);
         return;
@@ -124,6 +124,6 @@ EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first,
     piece.length = touched ? piece.length : none;
     const real value = flushTiny(fanTerm(kernel, line.h, piece));
     store(toFixed(touched ? value : none), first, terms.value);
-    circleCrossing(kernel, line, -c, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
-    circleCrossing(kernel, line, c, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
+    circleCrossing(kernel, line, -c, in_a, in_b, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
+    circleCrossing(kernel, line, c, in_a, in_b, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
 }

@@ -47,6 +47,15 @@ EDGEWISE_FN void store(real value, int first, double* out) { __builtin_memcpy(ou
 
 EDGEWISE_FN unsigned laneSet(mask m, int first) { return laneSet(m) << first; }
 
+/// A number near 0 that can be divided by.
+EDGEWISE_FN real nonZero(real d) { return absolute(d) < 0x1p-400 ? (d < 0.0 ? splat(-0x1p-400) : splat(0x1p-400)) : d; }
+
+/// Along over across, with the sign that it has on the way through the border from the segment's nearer end.
+EDGEWISE_FN real spreadFrom(const Line& line, real t, real slope, real in_a, real in_b) {
+    const real in_near = t - line.t_a < line.t_b - t ? in_a : in_b;
+    return in_near > 0.5 ? slope : -slope;
+}
+
 /// Whether the segment's box meets the box of the supports of the lanes from `first` on; rounding has its margin.
 EDGEWISE_FN bool boxesMeet(const EdgeInput& in, double radius, int first) {
     const double reach = radius * (1 + 0x1p-40) + 0x1p-32;

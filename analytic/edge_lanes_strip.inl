@@ -1,16 +1,13 @@
 // Strip terms of separable kernels: int K(x) k(y) dy along the part of the segment inside the square, and crossings with
 // the side x = R. Positions are taken along the line, so that no direction is singular. [E10], [E11], [E13]
 
-/// A direction component that can be divided by.
-EDGEWISE_FN real nonZero(real d) { return absolute(d) < 0x1p-400 ? (d < 0.0 ? splat(-0x1p-400) : splat(0x1p-400)) : d; }
-
 EDGEWISE_FN real horner(const double* c, int count, real u) {
     real sum = splat(c[count - 1]);
     for (int i = count - 2; i >= 0; --i) sum = sum * u + c[i];
     return sum;
 }
 
-/// K(y) for -R < y < R.
+/// K(y), 0 above the square and 1 below.
 EDGEWISE_FN real kernelIntegral(const TableView& table, real y) {
     real K = splat(0.0);
     for (int i = 0; i < table.intervals; ++i) {
@@ -19,7 +16,7 @@ EDGEWISE_FN real kernelIntegral(const TableView& table, real y) {
         const real u = (y - table.centre[i]) * table.inverse_half[i];
         K = here ? horner(table.K + i * (table.k_count + 1), table.k_count + 1, u) : K;
     }
-    return K;
+    return y < table.knot[table.intervals] ? K : splat(1.0);
 }
 
 /// int K(x) k(y) dt over a piece inside cell (i, j).
@@ -84,7 +81,8 @@ EDGEWISE_FN void stripTerms(const LaneKernel& kernel, const Line& line, int firs
     const real value = flushTiny(sum * line.d_y);
     store(toFixed(value), first, terms.value);
     const real y = t_side * line.d_y - line.h * line.d_x;
-    const real on_side = (y > -R ? one : none) * (y < R ? one : none);
+    // a little beyond the corners too, or a vertex there would show some of its crossings and hide the others
+    const real on_side = absolute(y) < R + 0x1p-33 ? one : none;
     const mask entered = right_a * (1.0 - right_b) * on_side > 0.5, left = right_b * (1.0 - right_a) * on_side > 0.5;
     const unsigned entries = laneSet(entered, first), exits = laneSet(left, first);
     terms.touched |= laneSet(value < 0.0 ? one > 0.0 : value > 0.0, first) | entries | exits;
@@ -93,10 +91,12 @@ EDGEWISE_FN void stripTerms(const LaneKernel& kernel, const Line& line, int firs
     // y errs by 4u R / |d.x|, and no more than the segment is high; [E13]
     const real amplified = smaller(1.0 / absolute(nonZero(line.d_x)), splat(0x1p27));
     const real doubt = (1.0 + amplified) * R * 0x1p-50;
+    const real spread = spreadFrom(line, t_side, line.d_y / nonZero(line.d_x), 1.0 - right_a, 1.0 - right_b);
     for (int slot = 0; slot < 2; ++slot) {
         terms.crossed[slot] |= slot == 0 ? entries : exits;
         store(position, first, terms.position[slot]);
         store(y, first, terms.order[slot]);
+        store(spread, first, terms.spread[slot]);
         store(doubt, first, terms.doubt[slot]);
     }
 }

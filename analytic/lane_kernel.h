@@ -62,8 +62,10 @@ struct EdgeTerms {
     alignas(64) std::int64_t position[2][8];
     alignas(64) double order[2][8];  ///< what crossings are sorted by: the angle in turns; y, px
     alignas(64) double doubt[2][8];  ///< how far rounding may have moved `order`
+    /// Sorts the crossings of segments that part at a vertex so near to the border that `order` cannot: along the border
+    /// over across it, on the way from the vertex through the border.
+    alignas(64) double spread[2][8];
     unsigned touched;                ///< lanes whose support meets the segment: the others' value is 0
-    unsigned at_right;               ///< radial: lanes where an end is exactly the circle's rightmost point
     unsigned crossed[2];
 };
 

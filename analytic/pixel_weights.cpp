@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "analytic/base_point.h"
 #include "analytic/border.h"
 #include "analytic/edge_integral.h"
 #include "analytic/owner_table.h"
@@ -14,6 +16,8 @@ using Lanes = std::array<std::int64_t, PixelWeights::kLanes>;
 
 /// A segment farther than this from a support cannot be rounded into it: 2^-40 is far more than its few roundings of 2^-53.
 constexpr double kSlack = 1.0 + 0x1p-40;
+/// ... nor moved by its points' rests, nor come near to the base point of one.
+constexpr double kMargin = 4 * kGridPx;
 
 /// Sums may leave the range on the way: they come back, modulo 2^64.
 void wrappingAdd(FixedWeight& sum, FixedWeight term) {
@@ -37,24 +41,25 @@ struct PixelWeights::State {
     explicit State(const Prefilter& filter) : kernel(filter), edge_terms(chooseEdgeTerms()) {}
 
     bool reaches(const VisibleSegment& segment) const;
+    bool radial() const { return kernel.lanes.form != TermForm::kStrip; }
     void addBorder(const VisibleSegment& segment, Owner left, Owner right);
-    Owner baseOwner(const BorderOwners& base, int i) const;
+    void addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
     EdgeKernel kernel;
     EdgeTermsFunction edge_terms;
     glm::dvec2 first{0.0};
     int count = 0;
-    unsigned touched = 0, at_right = 0;
     EdgeTerms terms{};
     OwnerTable table;
     std::array<std::vector<BorderCrossing>, kLanes> crossings;
+    std::array<BasePoint, kLanes> bases;
     std::vector<BorderShare> shares;
     std::uint64_t term_count = 0, conflicts = 0;
 };
 
 /// Whether the segment's box meets the box of the supports.
 bool PixelWeights::State::reaches(const VisibleSegment& segment) const {
-    const double reach = kernel.lanes.radius * kSlack + kGridPx;
+    const double reach = kernel.lanes.radius * kSlack + kMargin;
     const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
     return std::min(a.x, b.x) <= reach + (count - 1) && std::max(a.x, b.x) >= -reach && std::min(a.y, b.y) <= reach &&
            std::max(a.y, b.y) >= -reach;
@@ -64,16 +69,19 @@ void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, O
     for (int slot = 0; slot < 2; ++slot)
         for (int i = 0; i < count; ++i)
             if (terms.crossed[slot] >> i & 1u)
-                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], slot == 0 ? left : right,
-                                        slot == 0 ? right : left, segment.line});
+                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], terms.spread[slot][i], slot == 0 ? left : right,
+                                        slot == 0 ? right : left});
 }
 
-/// An edge may touch the disk at its rightmost point from outside: the inner side is the disk's. A segment within the
-/// disk may end there: then the outer side is.
-Owner PixelWeights::State::baseOwner(const BorderOwners& base, int i) const {
-    if (kernel.lanes.form == TermForm::kStrip) return base.outer[i];
-    if (!(touched >> i & 1u)) return base.center[i];
-    return at_right >> i & 1u ? base.outer[i] : base.inner[i];
+/// Lanes whose point (sample.x + R, sample.y) the segment's box comes near to.
+void PixelWeights::State::addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
+    const double R = kernel.lanes.radius, margin = kMargin;
+    const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
+    if (std::min(a.y, b.y) > margin || std::max(a.y, b.y) < -margin) return;
+    const double from = std::max(0.0, std::ceil(std::min(a.x, b.x) - R - margin));
+    const double to = std::min(count - 1.0, std::floor(std::max(a.x, b.x) - R + margin));
+    for (int i = static_cast<int>(from); i <= to; ++i)
+        considerBase(bases[i], radial(), R, {first.x + i, first.y}, segment, line, left, right);
 }
 
 PixelWeights::PixelWeights(const Prefilter& filter) : state_(std::make_unique<State>(filter)) {}
@@ -82,30 +90,29 @@ PixelWeights::~PixelWeights() = default;
 void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
     state_->first = first_sample_px;
     state_->count = count;
-    state_->touched = state_->at_right = 0;
     state_->table.clear();
     for (auto& list : state_->crossings) list.clear();
+    state_->bases.fill(BasePoint());
 }
 
 void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
     State& s = *state_;
     if (left == right || !s.reaches(segment)) return;
+    s.addBases(segment, line, left, right);
     s.edge_terms(s.kernel.lanes, inputOf(s.first, segment, line), s.terms);
     const unsigned touched = s.terms.touched & ((1u << s.count) - 1u);
     if (touched == 0) return;
-    s.touched |= touched;
-    s.at_right |= s.terms.at_right;
     s.term_count += static_cast<unsigned>(__builtin_popcount(touched));
     addLanes(s.table, left, s.terms.value, 1);
     addLanes(s.table, right, s.terms.value, -1);
     s.addBorder(segment, left, right);
 }
 
-void PixelWeights::finish(const BorderOwners& base, std::vector<OwnerWeight>& out, std::size_t* offset) {
+void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {
     State& s = *state_;
     for (int i = 0; i < s.count; ++i) {
-        s.conflicts += static_cast<unsigned>(
-            shareBorder(s.crossings[i], s.kernel.lanes.form != TermForm::kStrip, s.baseOwner(base, i), s.shares));
+        const Owner base = s.bases[i].known() ? s.bases[i].owner : base_owner[i];
+        s.conflicts += static_cast<unsigned>(shareBorder(s.crossings[i], s.radial(), base, s.shares));
         for (const BorderShare& share : s.shares) wrappingAdd(s.table.row(share.owner).weight[i], share.share);
     }
     const std::vector<OwnerTable::Row>& rows = s.table.sorted();

@@ -20,20 +20,8 @@ struct OwnerWeight {
     FixedWeight weight;
 };
 
-/// Owners about the support's rightmost point, one array entry a sample. They are asked only when no segment crosses
-/// the support's border, and then one of them owns all of it.
-struct BorderOwners {
-    const Owner* outer;   ///< at (sample.x + R + 0, sample.y): the square's side, open to the right
-    const Owner* inner;   ///< at (sample.x + R - 0, sample.y): the disk, where an outer edge may touch it there
-    const Owner* center;  ///< at the sample: where no segment meets the support
-
-    // NOLINTNEXTLINE(google-explicit-constructor): one owner may stand for all three where nothing touches the border
-    BorderOwners(const Owner* all) : outer(all), inner(all), center(all) {}
-    BorderOwners(const Owner* o, const Owner* i, const Owner* c) : outer(o), inner(i), center(c) {}
-};
-
-/// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a support,
-/// finish().  The result does not depend on the order of add(), nor on which samples share a call.
+/// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a support (within
+/// 2^-30 px: a border needs all segments of a vertex on it, not some), finish().  The result does not depend on the order of add(), nor on which samples share a call.
 class PixelWeights {
   public:
     static constexpr int kLanes = 8;
@@ -48,9 +36,10 @@ class PixelWeights {
     /// `left` and `right` replace the segment's owners (the caller may merge owners that shade alike).
     void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
-    /// Appends the owners to out, sample i's in ascending order at out[offset[i]..offset[i + 1]);
+    /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is asked only when
+    /// nothing crosses that border and no segment comes within 2^-31 px of the point.  Writes sample i's owners in ascending order to out[offset[i]..offset[i + 1]);
     /// owners of weight exactly 0 are left out; the weights of a sample sum to exactly 2^60.
-    void finish(const BorderOwners& base, std::vector<OwnerWeight>& out, std::size_t* offset);
+    void finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset);
 
     /// Terms evaluated since construction: (segment, sample) pairs whose support meets the segment.
     std::uint64_t terms() const;

@@ -12,6 +12,9 @@
 namespace edgewise {
 namespace {
 
+/// PixelWeights wants every segment within 2^-30 px of a support.
+constexpr double kReachSlackPx = 0x1p-29;
+
 glm::dvec2 rounded(const FinePoint& p) { return p.grid + p.rest; }
 
 /// The part of a -> b within [y0, y1] spans these abscissae; empty: x0 > x1. Widened by what rounding may lose.
@@ -53,7 +56,7 @@ struct TileLattice {
 template <class Visit>
 void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 offset_px, double radius, Visit&& visit) {
     const glm::dvec2 a = rounded(s.a) - offset_px, b = rounded(s.b) - offset_px;
-    const double reach = radius + kGridPx;
+    const double reach = radius + kReachSlackPx;
     const auto [r0, r1] = TileLattice::range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
     for (int row = r0; row <= r1; ++row) {
         const double y0 = lattice.box.y0 + row * kWeightTilePx;
@@ -96,7 +99,7 @@ WeightWorker::WeightWorker(const Prefilter& filter, const WeightOptions& options
 void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
                               const OwnerClasses& classes, double y) {
     row_.clear();
-    const double reach = radius_ + kGridPx;
+    const double reach = radius_ + kReachSlackPx;
     for (const std::uint32_t id : segments) {
         const VisibleSegment& s = map.segments[id];
         const glm::dvec2 a = rounded(s.a), b = rounded(s.b);
@@ -108,8 +111,7 @@ void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32
     }
 }
 
-void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const BorderOwners& base,
-                            WeightTile& out) {
+void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out) {
     bool begun = false;
     for (const Span& span : row_) {
         if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
@@ -120,7 +122,7 @@ void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, 
     if (!begun && options_.skip_interior) {
         interior_pixels_ += static_cast<std::uint64_t>(count);
         for (int k = 0; k < count; ++k) {
-            out.entries.push_back({base.center[k], FixedWeight{1} << kWeightBits});
+            out.entries.push_back({base[k], FixedWeight{1} << kWeightBits});
             out.offset.push_back(out.entries.size());
         }
         return;
@@ -136,7 +138,7 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
     out.box = box;
     out.offset.assign(1, 0);
     out.entries.clear();
-    Owner outer[PixelWeights::kLanes], inner[PixelWeights::kLanes], center[PixelWeights::kLanes];
+    Owner base[PixelWeights::kLanes];
     for (int y = box.y0; y < box.y1; ++y) {
         const double sample_y = y + 0.5 + offset_px.y;
         collectRow(map, segments, classes, sample_y);
@@ -144,11 +146,8 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
             const int count = std::min(PixelWeights::kLanes, box.x1 - x);
             const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
             const int row = y + static_cast<int>(offset_px.y);
-            const auto into = [&](Owner* list) { return [&, list](int k, Owner o) { list[k] = classes.of(o); }; };
-            ownersAlongRow(map, row, first.x, count, Side::kRight, into(center));
-            ownersAlongRow(map, row, first.x + radius_, count, Side::kLeft, into(inner));
-            ownersAlongRow(map, row, first.x + radius_, count, Side::kRight, into(outer));
-            runGroup(map, first, count, {outer, inner, center}, out);
+            ownersAlongRow(map, row, first.x + radius_, count, [&](int k, Owner o) { base[k] = classes.of(o); });
+            runGroup(map, first, count, base, out);
         }
     }
 }

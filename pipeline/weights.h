@@ -52,7 +52,7 @@ class WeightWorker {
     };
     void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
                     double y);
-    void runGroup(const VisibleMap& map, glm::dvec2 first, int count, const BorderOwners& base, WeightTile& out);
+    void runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out);
 
     double radius_;
     WeightOptions options_;

@@ -14,7 +14,8 @@ EDGEWISE_FN real erfTail(real z) {
     p = p * z + EDGEWISE_REAL(-0.026866170645129733);
     p = p * z + EDGEWISE_REAL(0.11283791670955119);
     p = p * z + EDGEWISE_REAL(-0.37612638903183754);
-    return p * z + EDGEWISE_REAL(0.12837916709551259);
+    EDGEWISE_PRECISE real result = p * z + EDGEWISE_REAL(0.12837916709551259);
+    return result;
 }
 
 /// erfc(x) e^(x^2) on 1 <= x <= 6 in t = (x - 2)/(x + 2); fit error 2^-56.5, relative.
@@ -34,7 +35,8 @@ EDGEWISE_FN real scaledErfc(real t) {
     p = p * t + EDGEWISE_REAL(-0.07897858101571043);
     p = p * t + EDGEWISE_REAL(0.24165819424246487);
     p = p * t + EDGEWISE_REAL(-0.4271858474139585);
-    return p * t + EDGEWISE_REAL(0.25539567631050575);
+    EDGEWISE_PRECISE real result = p * t + EDGEWISE_REAL(0.25539567631050575);
+    return result;
 }
 
 /// erf(x). Error <= 2 ulp.

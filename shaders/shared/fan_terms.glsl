@@ -34,5 +34,6 @@ EDGEWISE_FN real coneMean(real h, real t1, real t2, real len, real R) {
     EDGEWISE_PRECISE real m = t1 + t2;
     EDGEWISE_PRECISE real ends = EDGEWISE_REAL(0.5) * (s + m * m / s);
     EDGEWISE_PRECISE real mean_r = EDGEWISE_REAL(0.5) * (ends + h * h * inverse);
-    return EDGEWISE_REAL(0.5) - mean_r / (EDGEWISE_REAL(3.0) * R);
+    EDGEWISE_PRECISE real result = EDGEWISE_REAL(0.5) - mean_r / (EDGEWISE_REAL(3.0) * R);
+    return result;
 }

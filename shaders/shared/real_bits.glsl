@@ -1,9 +1,9 @@
 // GLSL only: the macros of shared_text.h and the powers of two, for real = double. C++ has analytic/real_lanes.h.
+// EDGEWISE_REAL(x) is no macro here: whoever loads the text replaces it by xlf (README.md).
 #define EDGEWISE_FN
 #define EDGEWISE_PRECISE precise
 #define EDGEWISE_INIT
 #define EDGEWISE_END
-#define EDGEWISE_REAL(number) number##lf
 #define real double
 #define mask bool
 #define splat(number) double(number)

@@ -19,25 +19,28 @@ EDGEWISE_FN real phi1Near0(real r) {
     p = p * r + EDGEWISE_REAL(-0.04166666666666649);
     p = p * r + EDGEWISE_REAL(0.1666666666666668);
     p = p * r + EDGEWISE_REAL(-0.5);
-    return p * r + EDGEWISE_REAL(1.0);
+    EDGEWISE_PRECISE real result = p * r + EDGEWISE_REAL(1.0);
+    return result;
 }
 
 /// The integer nearest to x, |x| < 2^51, ties to even.
 EDGEWISE_FN real nearestInteger(real x) {
     EDGEWISE_PRECISE real s = x + EDGEWISE_REAL(6755399441055744.0);
-    return s - EDGEWISE_REAL(6755399441055744.0);
+    EDGEWISE_PRECISE real result = s - EDGEWISE_REAL(6755399441055744.0);
+    return result;
 }
 
 /// v - k ln 2: k ln2_hi is exact for |k| < 2^20.
 EDGEWISE_FN real lessLn2(real v, real k) {
     EDGEWISE_PRECISE real r = v - k * EDGEWISE_REAL(0.6931471803691238);
-    return r - k * EDGEWISE_REAL(1.9082149292705877e-10);
+    EDGEWISE_PRECISE real result = r - k * EDGEWISE_REAL(1.9082149292705877e-10);
+    return result;
 }
 
 /// e^-v for -709 <= v; 0 where it is below 2^-1000. Error <= 2 ulp.
 EDGEWISE_FN real expNegative(real v) {
     real w = smaller(v, splat(EDGEWISE_REAL(700.0)));
-    real k = nearestInteger(w * EDGEWISE_REAL(1.4426950408889634));
+    EDGEWISE_PRECISE real k = nearestInteger(w * EDGEWISE_REAL(1.4426950408889634));
     real r = lessLn2(w, k);
     EDGEWISE_PRECISE real e = (EDGEWISE_REAL(1.0) - r * phi1Near0(r)) * exp2Int(-k);
     return v < EDGEWISE_REAL(693.0) ? e : splat(EDGEWISE_REAL(0.0));
@@ -50,12 +53,13 @@ EDGEWISE_FN real expReal(real x) { return expNegative(-x); }
 /// e^-v - 1 = -v phi1(v). Error <= 2.5 ulp.
 EDGEWISE_FN real phi1(real v) {
     real w = smaller(v, splat(EDGEWISE_REAL(700.0)));
-    real k = nearestInteger(w * EDGEWISE_REAL(1.4426950408889634));
+    EDGEWISE_PRECISE real k = nearestInteger(w * EDGEWISE_REAL(1.4426950408889634));
     real r = lessLn2(w, k);
     real near0 = phi1Near0(r);
-    real scale = exp2Int(-k);
+    EDGEWISE_PRECISE real scale = exp2Int(-k);
     EDGEWISE_PRECISE real top = (EDGEWISE_REAL(1.0) - scale) + scale * (r * near0);
-    return k < EDGEWISE_REAL(0.5) ? near0 : top / v;
+    EDGEWISE_PRECISE real result = k < EDGEWISE_REAL(0.5) ? near0 : top / v;
+    return result;
 }
 
 /// atanh(f) / f - 1 over f^2, z = f^2, |f| <= 0.1733; fit error 2^-66 of the whole.
@@ -66,30 +70,33 @@ EDGEWISE_FN real atanhTail(real z) {
     p = p * z + EDGEWISE_REAL(0.11111111364159532);
     p = p * z + EDGEWISE_REAL(0.14285714284230494);
     p = p * z + EDGEWISE_REAL(0.20000000000004356);
-    return p * z + EDGEWISE_REAL(0.33333333333333326);
+    EDGEWISE_PRECISE real result = p * z + EDGEWISE_REAL(0.33333333333333326);
+    return result;
 }
 
 /// ln x for normal x > 0. Error <= 1 ulp.
 EDGEWISE_FN real logReal(real x) {
-    real k = exponentOf(x * EDGEWISE_REAL(1.4142135623730951));
+    EDGEWISE_PRECISE real k = exponentOf(x * EDGEWISE_REAL(1.4142135623730951));
     EDGEWISE_PRECISE real f = x * exp2Int(-k) - EDGEWISE_REAL(1.0);
     EDGEWISE_PRECISE real s = f / (EDGEWISE_REAL(2.0) + f);
     EDGEWISE_PRECISE real z = s * s;
     EDGEWISE_PRECISE real half_square = EDGEWISE_REAL(0.5) * f * f;
     EDGEWISE_PRECISE real tail = EDGEWISE_REAL(2.0) * z * atanhTail(z);
     EDGEWISE_PRECISE real small = s * (half_square + tail) + k * EDGEWISE_REAL(1.9082149292705877e-10);
-    return k * EDGEWISE_REAL(0.6931471803691238) - ((half_square - small) - f);
+    EDGEWISE_PRECISE real result = k * EDGEWISE_REAL(0.6931471803691238) - ((half_square - small) - f);
+    return result;
 }
 
 /// atanh(part / whole) for 0 <= part < whole, given rest = whole - part to full relative accuracy. Error <= 4 ulp.
 EDGEWISE_FN real atanhOfParts(real part, real whole, real rest) {
-    real k = exponentOf((whole + part) / rest * EDGEWISE_REAL(1.4142135623730951));
+    EDGEWISE_PRECISE real k = exponentOf((whole + part) / rest * EDGEWISE_REAL(1.4142135623730951));
     EDGEWISE_PRECISE real scaled = exp2Int(k) * rest;
     EDGEWISE_PRECISE real sum = whole + part;
     EDGEWISE_PRECISE real f = k < EDGEWISE_REAL(0.5) ? part / whole : (sum - scaled) / (sum + scaled);
     EDGEWISE_PRECISE real z = f * f;
     EDGEWISE_PRECISE real t = f + f * (z * atanhTail(z));
-    return k * EDGEWISE_REAL(0.34657359027997264) + t;
+    EDGEWISE_PRECISE real result = k * EDGEWISE_REAL(0.34657359027997264) + t;
+    return result;
 }
 
 /// atan(q) / q - 1 over q^2, z = q^2, |q| <= tan(pi/8); fit error 2^-64 of the whole.
@@ -104,7 +111,8 @@ EDGEWISE_FN real atanTail(real z) {
     p = p * z + EDGEWISE_REAL(0.11111111086194306);
     p = p * z + EDGEWISE_REAL(-0.14285714285345305);
     p = p * z + EDGEWISE_REAL(0.1999999999999716);
-    return p * z + EDGEWISE_REAL(-0.33333333333333326);
+    EDGEWISE_PRECISE real result = p * z + EDGEWISE_REAL(-0.33333333333333326);
+    return result;
 }
 
 /// The angle of (x, y) in (-pi, pi]; atan2(0, 0) = 0, a zero has no sign. Error <= 2 ulp.
@@ -118,7 +126,7 @@ EDGEWISE_FN real atan2Real(real y, real x) {
     mask far = small > EDGEWISE_REAL(0.41421356237309503) * big;
     EDGEWISE_PRECISE real top = far ? small - big : small;
     EDGEWISE_PRECISE real bottom = far ? small + big : big;
-    real q = top / bottom;
+    EDGEWISE_PRECISE real q = top / bottom;
     real eighths = far ? splat(EDGEWISE_REAL(1.0)) : splat(EDGEWISE_REAL(0.0));  // the result in eighths of a turn + atan q
     eighths = steep ? EDGEWISE_REAL(2.0) - eighths : eighths;
     q = steep ? -q : q;

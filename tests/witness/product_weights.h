@@ -29,12 +29,10 @@ inline ProductWeights productWeights(const VisibleMap& map, const Prefilter& fil
     PixelWeights engine(filter);
     engine.begin(sample, 1);
     for (const VisibleSegment& s : map.segments) engine.add(s, map.lines[s.line], s.left, s.right);
-    const Owner outer = ownerOnRow(map, pixel.y, sample.x + filter.radius, Side::kRight);
-    const Owner inner = ownerOnRow(map, pixel.y, sample.x + filter.radius, Side::kLeft);
-    const Owner center = ownerOnRow(map, pixel.y, sample.x, Side::kRight);
+    const Owner base = ownerOnRow(map, pixel.y, sample.x + filter.radius);
     ProductWeights result;
     std::size_t offset[2] = {0, 0};
-    engine.finish({&outer, &inner, &center}, result.weights, offset);
+    engine.finish(&base, result.weights, offset);
     result.terms = engine.terms();
     result.label_conflicts = engine.label_conflicts();
     result.segments = map.segments.size();
