@@ -10,24 +10,31 @@
 namespace edgewise {
 namespace {
 
-/// Callers look up owners by coordinates in double, of up to 2^20 px: they cannot be wrong farther from a segment than this.
+/// Callers look up owners by coordinates in double, of up to 2^20 px: they cannot be wrong farther from a
+/// segment than this.
 constexpr double kLookupPx = 0x1p-31;
 
 struct Ends {
     glm::dvec2 a, b;  // relative to the sample, as the edge terms see them
 };
 
-glm::dvec2 relative(const FinePoint& p, glm::dvec2 sample) { return (p.grid - sample) + p.rest; }
-double dot(glm::dvec2 a, glm::dvec2 b) { return a.x * b.x + a.y * b.y; }
+glm::dvec2 relative(const FinePoint& p, glm::dvec2 sample) {
+    return (p.grid - sample) + p.rest;
+}
+double dot(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
 
 /// The sign of cross(a - sample, b - sample), from the line.
 double sideOfSample(const CarrierLine& l, glm::dvec2 sample) {
     const glm::dvec2 d = sample - l.origin;
-    const f64::dd x = f64::ddMulReal(f64::dd{l.nx_hi, l.nx_lo}, d.x), y = f64::ddMulReal(f64::dd{l.ny_hi, l.ny_lo}, d.y);
+    const f64::dd x = f64::ddMulReal(f64::dd{l.nx_hi, l.nx_lo}, d.x),
+                  y = f64::ddMulReal(f64::dd{l.ny_hi, l.ny_lo}, d.y);
     return f64::ddAdd(f64::ddAdd(x, y), f64::dd{l.c_hi, l.c_lo}).hi;
 }
 
-/// Both ends inside the support: true; both outside: false; one each: it crosses the border, and its crossing tells.
+/// Both ends inside the support: true; both outside: false; one each: it crosses the border, and its crossing
+/// tells.
 std::optional<bool> bothInside(bool radial, double R, const Ends& e) {
     const auto inside = [=](glm::dvec2 p) { return radial ? dot(p, p) <= R * R : !(p.x > R); };
     if (inside(e.a) != inside(e.b)) return std::nullopt;
@@ -54,7 +61,9 @@ void considerBase(BasePoint& base, bool radial, double R, glm::dvec2 sample, con
     const bool sample_is_left = radial ? sideOfSample(line, sample) > 0 : true;
     const Owner owner = sample_is_left != *inside ? left : right;
     const BasePoint fresh{distance2, cosine, owner};
-    const auto key = [](const BasePoint& p) { return std::make_tuple(p.distance2, -p.cosine, p.owner); };
+    const auto key = [](const BasePoint& p) {
+        return std::make_tuple(p.distance2, -p.cosine, p.owner);
+    };
     if (key(fresh) < key(base)) base = fresh;
 }
 

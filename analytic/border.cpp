@@ -26,7 +26,8 @@ std::size_t clusterEnd(const Crossings& c, std::size_t first) {
     return last;
 }
 
-/// The label that leads into the cluster: it is left once more often than it is entered. None or several: unknown.
+/// The label that leads into the cluster: it is left once more often than it is entered. None or several:
+/// unknown.
 std::optional<Owner> labelBefore(const Crossings& c, Cluster cluster) {
     std::optional<Owner> found;
     for (std::size_t i = cluster.first; i < cluster.last; ++i) {
@@ -40,8 +41,9 @@ std::optional<Owner> labelBefore(const Crossings& c, Cluster cluster) {
     return found;
 }
 
-/// The cluster's crossings in an order in which their labels chain from `label`, all of them where that is possible: an
-/// Eulerian path by Hierholzer's way, labels being its nodes; those that it cannot reach come last.
+/// The cluster's crossings in an order in which their labels chain from `label`, all of them where that is
+/// possible: an Eulerian path by Hierholzer's way, labels being its nodes; those that it cannot reach come
+/// last.
 std::vector<std::size_t> chain(const Crossings& c, Cluster cluster, Owner label) {
     constexpr std::size_t kStart = ~std::size_t{0};
     std::vector<bool> used(c.size(), false);
@@ -64,7 +66,8 @@ std::vector<std::size_t> chain(const Crossings& c, Cluster cluster, Owner label)
     return path;
 }
 
-/// Puts the cluster's labels, not its positions, into the order in which they chain from `label`; returns the last one.
+/// Puts the cluster's labels, not its positions, into the order in which they chain from `label`; returns the
+/// last one.
 Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
     if (cluster.last - cluster.first == 1) return c[cluster.first].after;
     const auto begin = c.begin() + static_cast<std::ptrdiff_t>(cluster.first);
@@ -78,18 +81,23 @@ Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
     return c[cluster.last - 1].after;
 }
 
-/// The label that leads into a cluster which leaves it as it was: a corner that only touches the border. The order of the
-/// segments around their vertex tells, if their labels chain in it.
+/// The label that leads into a cluster which leaves it as it was: a corner that only touches the border. The
+/// order of the segments around their vertex tells, if their labels chain in it.
 std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
-    Crossings fan(c.begin() + static_cast<std::ptrdiff_t>(cluster.first), c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
-    const auto key = [](const BorderCrossing& x) { return std::tie(x.spread, x.order, x.before, x.after); };
-    std::sort(fan.begin(), fan.end(), [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
+    Crossings fan(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
+                  c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
+    const auto key = [](const BorderCrossing& x) {
+        return std::tie(x.spread, x.order, x.before, x.after);
+    };
+    std::sort(fan.begin(), fan.end(),
+              [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
     for (std::size_t i = 0; i + 1 < fan.size(); ++i)
         if (fan[i].after != fan[i + 1].before) return std::nullopt;
     return fan.front().before;
 }
 
-/// The label before the first crossing: the first cluster that changes labels decides, else the first that can be sorted.
+/// The label before the first crossing: the first cluster that changes labels decides, else the first that
+/// can be sorted.
 Owner firstLabel(const Crossings& c, Owner base) {
     std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {
@@ -120,8 +128,11 @@ void cutInLongestGap(Crossings& c) {
 }
 
 void sortCrossings(Crossings& c) {
-    const auto key = [](const BorderCrossing& x) { return std::tie(x.order, x.position, x.before, x.after, x.doubt); };
-    std::sort(c.begin(), c.end(), [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
+    const auto key = [](const BorderCrossing& x) {
+        return std::tie(x.order, x.position, x.before, x.after, x.doubt);
+    };
+    std::sort(c.begin(), c.end(),
+              [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
 }
 
 }  // namespace
@@ -146,7 +157,8 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     }
     if (circle && label != start) ++conflicts;
     shares.push_back({start, circle ? 0 : c.front().position});
-    for (std::size_t i = 0; i + 1 < c.size(); ++i) shares.push_back({c[i].after, c[i + 1].position - c[i].position});
+    for (std::size_t i = 0; i + 1 < c.size(); ++i)
+        shares.push_back({c[i].after, c[i + 1].position - c[i].position});
     shares.push_back({label, (circle ? c.front().position + kWhole : kWhole) - c.back().position});
     return conflicts;
 }

@@ -8,10 +8,10 @@
 
 namespace edgewise {
 
-/// A visible segment crosses the border: along it the owner changes from `before` to `after`. `position` is the border's
-/// integral up to here in fixed point, the whole is 2^60; it is not monotone where a kernel has negative lobes, so
-/// crossings are sorted by `order`, which rounding may have moved by `doubt`;
-/// `spread` sorts those of segments that part at one vertex.
+/// A visible segment crosses the border: along it the owner changes from `before` to `after`. `position` is
+/// the border's integral up to here in fixed point, the whole is 2^60; it is not monotone where a kernel has
+/// negative lobes, so crossings are sorted by `order`, which rounding may have moved by `doubt`; `spread`
+/// sorts those of segments that part at one vertex.
 struct BorderCrossing {
     double order;
     std::int64_t position;
@@ -26,10 +26,12 @@ struct BorderShare {
     std::int64_t share;
 };
 
-/// Shares of the border that sum to exactly 2^60. Crossings nearer to each other than their doubt are put in the order in
-/// which their labels chain, since rounding may have swapped them. `circle`: the border closes, order is in
-/// turns in (-1/2, 1/2] and so is the position; otherwise that runs from 0 to 2^60. Sorts `crossings`; the result does not depend on their order.
-/// Returns the number of stretches, longer than doubt explains, whose two ends name different owners.
-int shareBorder(std::vector<BorderCrossing>& crossings, bool circle, Owner base, std::vector<BorderShare>& shares);
+/// Shares of the border that sum to exactly 2^60. Crossings nearer to each other than their doubt are put in
+/// the order in which their labels chain, since rounding may have swapped them. `circle`: the border closes,
+/// order is in turns in (-1/2, 1/2] and so is the position; otherwise that runs from 0 to 2^60. Sorts
+/// `crossings`; the result does not depend on their order. Returns the number of stretches, longer than doubt
+/// explains, whose two ends name different owners.
+int shareBorder(std::vector<BorderCrossing>& crossings, bool circle, Owner base,
+                std::vector<BorderShare>& shares);
 
 }  // namespace edgewise

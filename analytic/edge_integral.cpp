@@ -11,11 +11,19 @@
 
 namespace edgewise {
 
-namespace scalar { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
-namespace sse2 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+namespace scalar {
+void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+}
+namespace sse2 {
+void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+}
 #if defined(EDGEWISE_HAS_AVX)
-namespace avx2 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
-namespace avx512 { void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); }
+namespace avx2 {
+void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+}
+namespace avx512 {
+void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+}
 #endif
 
 namespace {
@@ -34,11 +42,14 @@ GaussRule pieceRule(double limit) {
     return gaussRule(nodesNeeded(growth, limit, 0x1p-62));
 }
 
-RuleView viewOf(const GaussRule& rule) { return {rule.count(), rule.node.data(), rule.weight.data()}; }
+RuleView viewOf(const GaussRule& rule) {
+    return {rule.count(), rule.node.data(), rule.weight.data()};
+}
 
 TableView viewOf(const KernelTable& table) {
-    return {table.intervals(), table.k_count, table.knot.data(), table.centre.data(), table.inverse_half.data(),
-            table.k.data(), table.K.data(), table.k_max, viewOf(table.rule)};
+    return {table.intervals(),         table.k_count,  table.knot.data(), table.centre.data(),
+            table.inverse_half.data(), table.k.data(), table.K.data(),    table.k_max,
+            viewOf(table.rule)};
 }
 
 void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter) {
@@ -89,9 +100,14 @@ EdgeKernel::EdgeKernel(const Prefilter& filter) {
             lanes.form = TermForm::kCone;
             lanes.scale = 3.0 / (M_PI * R2);
             return;
-        case KernelKind::kGaussian: prepareGaussian(*this, filter); return;
-        case KernelKind::kPoly: preparePoly(*this, filter); return;
-        default: prepareStrip(*this, filter);
+        case KernelKind::kGaussian:
+            prepareGaussian(*this, filter);
+            return;
+        case KernelKind::kPoly:
+            preparePoly(*this, filter);
+            return;
+        default:
+            prepareStrip(*this, filter);
     }
 }
 

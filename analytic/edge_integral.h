@@ -1,6 +1,6 @@
-// One signed term a (segment, sample): fan terms of radial kernels inside their disk, strip terms of separable ones inside
-// their square, and where the segment crosses the support's border. The code behind edgeTerms() is built once an
-// instruction set, all with the same bits.
+// One signed term a (segment, sample): fan terms of radial kernels inside their disk, strip terms of
+// separable ones inside their square, and where the segment crosses the support's border. The code behind
+// edgeTerms() is built once an instruction set, all with the same bits.
 #pragma once
 
 #include <array>

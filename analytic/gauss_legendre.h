@@ -15,10 +15,11 @@ struct GaussRule {
 /// Nodes and weights correctly rounded from 113 bits.
 GaussRule gaussRule(int count);
 
-/// The smallest count whose mean over a real interval of length `length` errs by at most `target`, by the bound
+/// The smallest count whose mean over a real interval of length `length` errs by at most `target`, by the
+/// bound
 ///     |error of the mean| <= (32/15) M(rho) rho^-2n / (1 - rho^-2)                                      [E9]
-/// (Trefethen, Approximation Theory and Practice, theorem 19.3), M(rho) = growth(imaginary half axis of the Bernstein
-/// ellipse), the best rho of a ladder. growth(y) bounds |f| wherever |Im z| <= y.
+/// (Trefethen, Approximation Theory and Practice, theorem 19.3), M(rho) = growth(imaginary half axis of the
+/// Bernstein ellipse), the best rho of a ladder. growth(y) bounds |f| wherever |Im z| <= y.
 int nodesNeeded(const std::function<double(double)>& growth, double length, double target);
 
 }  // namespace edgewise

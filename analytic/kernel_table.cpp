@@ -17,8 +17,8 @@ using Coefficients = std::vector<QuadReal>;
 struct Factor {
     Shape shape;
     std::vector<QuadReal> knots;
-    int degree = -1;                        ///< of the polynomials, -1: fit
-    std::function<double(double)> growth;   ///< |k(x + iy)| <= sup |k| growth(|y|)
+    int degree = -1;                       ///< of the polynomials, -1: fit
+    std::function<double(double)> growth;  ///< |k(x + iy)| <= sup |k| growth(|y|)
 };
 
 std::vector<QuadReal> evenKnots(QuadReal from, QuadReal to, int intervals) {
@@ -46,7 +46,11 @@ constexpr double kGaussianReach = 9.25;
 Factor gaussianFactor(double R, double sigma) {
     const double reach = std::min(R, kGaussianReach * sigma);
     const int intervals = std::max(2, 2 * static_cast<int>(std::ceil(reach / sigma)));
-    Factor factor{.shape = [=](QuadReal x) { return quadAbs(x) > reach ? QuadReal(0) : quadExp(-x * x / (2 * QuadReal(sigma) * sigma)); },
+    Factor factor{.shape =
+                      [=](QuadReal x) {
+                          return quadAbs(x) > reach ? QuadReal(0)
+                                                    : quadExp(-x * x / (2 * QuadReal(sigma) * sigma));
+                      },
                   .knots = evenKnots(-reach, reach, intervals),
                   .growth = [=](double y) { return std::exp(y * y / (2 * sigma * sigma)); }};
     if (reach < R) {
@@ -58,7 +62,8 @@ Factor gaussianFactor(double R, double sigma) {
 
 Factor lanczosFactor(double R) {
     const int intervals = 2 * static_cast<int>(std::ceil(2 * R));
-    const double type = M_PI * (1 + 1 / R);  // the product of two sincs is entire of this exponential type, at most 1
+    const double type =
+        M_PI * (1 + 1 / R);  // the product of two sincs is entire of this exponential type, at most 1
     return {.shape = [=](QuadReal x) { return sinc(x) * sinc(x / R); },
             .knots = evenKnots(-R, R, intervals),
             .growth = [=](double y) { return std::exp(type * y); }};
@@ -67,15 +72,21 @@ Factor lanczosFactor(double R) {
 Factor factorOf(const Prefilter& f) {
     const double R = f.radius;
     switch (f.kind) {
-        case KernelKind::kBox: return {[](QuadReal) { return QuadReal(1); }, evenKnots(-R, R, 1), 0, {}};
+        case KernelKind::kBox:
+            return {[](QuadReal) { return QuadReal(1); }, evenKnots(-R, R, 1), 0, {}};
         case KernelKind::kTent:
             return {[R](QuadReal x) { return 1 - quadAbs(x) / R; }, evenKnots(-R, R, 2), 1, {}};
         case KernelKind::kCubic:
             return {[R, b = f.b, c = f.c](QuadReal x) { return cubicShape(2 * x / R, b, c); },
-                    evenKnots(-R, R, 4), 3, {}};
-        case KernelKind::kGaussianSeparable: return gaussianFactor(R, f.sigma.value_or(R / 3));
-        case KernelKind::kLanczos: return lanczosFactor(R);
-        default: throw std::logic_error("factorOf: " + f.name + " is not separable");
+                    evenKnots(-R, R, 4),
+                    3,
+                    {}};
+        case KernelKind::kGaussianSeparable:
+            return gaussianFactor(R, f.sigma.value_or(R / 3));
+        case KernelKind::kLanczos:
+            return lanczosFactor(R);
+        default:
+            throw std::logic_error("factorOf: " + f.name + " is not separable");
     }
 }
 
@@ -111,10 +122,12 @@ struct Fit {
 Fit fitAll(const Factor& factor, int degree) {
     Fit fit;
     for (std::size_t i = 0; i + 1 < factor.knots.size(); ++i) {
-        const QuadReal centre = (factor.knots[i] + factor.knots[i + 1]) / 2, half = (factor.knots[i + 1] - factor.knots[i]) / 2;
+        const QuadReal centre = (factor.knots[i] + factor.knots[i + 1]) / 2,
+                       half = (factor.knots[i + 1] - factor.knots[i]) / 2;
         fit.pieces.push_back(interpolate(factor.shape, centre, half, degree));
         for (int s = 0; s < 64; ++s) {
-            const QuadReal u = (QuadReal(s) + QuadReal(1) / 2) / 32 - 1, exact = factor.shape(centre + half * u);
+            const QuadReal u = (QuadReal(s) + QuadReal(1) / 2) / 32 - 1,
+                           exact = factor.shape(centre + half * u);
             fit.error = std::max(fit.error, quadAbs(polynomial(fit.pieces.back(), u) - exact));
             fit.largest = std::max(fit.largest, quadAbs(exact));
             fit.l1 += quadAbs(exact) * half / 32;

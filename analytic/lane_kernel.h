@@ -1,5 +1,5 @@
-// What the code of one instruction set takes and gives: plain data, no library types, so that nothing compiled for a newer
-// machine can be linked into code for an older one.
+// What the code of one instruction set takes and gives: plain data, no library types, so that nothing
+// compiled for a newer machine can be linked into code for an older one.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ struct RuleView {
     const double* weight = nullptr;
 };
 
-/// A Gaussian's segment is cut into equal parts no longer than this, and a part takes one of these many rules.
+/// A Gaussian's segment is cut into equal parts no longer than this, and a part takes one of these many
+/// rules.
 inline constexpr double kLongestPieceSigmas = 3.0;
 inline constexpr int kPieceRules = 3;
 
@@ -54,18 +55,18 @@ struct EdgeInput {
     double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
 };
 
-/// For eight samples. A crossing with the border: radial, its angle over 2 pi in (-1/2, 1/2]; separable, K(y) on the side
-/// x = sample.x + R. In fixed point 2^-60.  Going along the border (by angle, by y) an entry [0] leads from the segment's
-/// left owner to its right one, an exit [1] from right to left. [E12], [E13]
+/// For eight samples. A crossing with the border: radial, its angle over 2 pi in (-1/2, 1/2]; separable, K(y)
+/// on the side x = sample.x + R. In fixed point 2^-60.  Going along the border (by angle, by y) an entry [0]
+/// leads from the segment's left owner to its right one, an exit [1] from right to left. [E12], [E13]
 struct EdgeTerms {
     alignas(64) std::int64_t value[8];
     alignas(64) std::int64_t position[2][8];
     alignas(64) double order[2][8];  ///< what crossings are sorted by: the angle in turns; y, px
     alignas(64) double doubt[2][8];  ///< how far rounding may have moved `order`
-    /// Sorts the crossings of segments that part at a vertex so near to the border that `order` cannot: along the border
-    /// over across it, on the way from the vertex through the border.
+    /// Sorts the crossings of segments that part at a vertex so near to the border that `order` cannot: along
+    /// the border over across it, on the way from the vertex through the border.
     alignas(64) double spread[2][8];
-    unsigned touched;                ///< lanes whose support meets the segment: the others' value is 0
+    unsigned touched;  ///< lanes whose support meets the segment: the others' value is 0
     unsigned crossed[2];
 };
 

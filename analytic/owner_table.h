@@ -1,4 +1,5 @@
-// Weights of the owners around eight samples: a small open-addressing table, allocation-free once it has grown.
+// Weights of the owners around eight samples: a small open-addressing table, allocation-free once it has
+// grown.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +53,8 @@ class OwnerTable {
 
     void grow() {
         slots_.assign(std::max<std::size_t>(16, 2 * slots_.size()), kEmpty);
-        for (std::size_t i = 0; i < rows_.size(); ++i) slots_[find(rows_[i].owner)] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < rows_.size(); ++i)
+            slots_[find(rows_[i].owner)] = static_cast<std::uint32_t>(i);
     }
 
     std::vector<Row> rows_;

@@ -14,7 +14,8 @@ namespace {
 
 using Lanes = std::array<std::int64_t, PixelWeights::kLanes>;
 
-/// A segment farther than this from a support cannot be rounded into it: 2^-40 is far more than its few roundings of 2^-53.
+/// A segment farther than this from a support cannot be rounded into it: 2^-40 is far more than its few
+/// roundings of 2^-53.
 constexpr double kSlack = 1.0 + 0x1p-40;
 /// ... nor moved by its points' rests, nor come near to the base point of one.
 constexpr double kMargin = 4 * kGridPx;
@@ -30,9 +31,10 @@ void addLanes(OwnerTable& table, Owner owner, const std::int64_t* value, std::in
 }
 
 EdgeInput inputOf(glm::dvec2 sample, const VisibleSegment& s, const CarrierLine& l) {
-    return {sample.x,   sample.y,   s.a.grid.x, s.a.grid.y, s.a.rest.x, s.a.rest.y, s.b.grid.x,    s.b.grid.y,
-            s.b.rest.x, s.b.rest.y, s.length,   l.origin.x, l.origin.y, l.nx_hi,    l.nx_lo,       l.ny_hi,
-            l.ny_lo,    l.c_hi,     l.c_lo,     l.length,   l.direction.x, l.direction.y};
+    return {sample.x,   sample.y,   s.a.grid.x,    s.a.grid.y,   s.a.rest.x, s.a.rest.y,
+            s.b.grid.x, s.b.grid.y, s.b.rest.x,    s.b.rest.y,   s.length,   l.origin.x,
+            l.origin.y, l.nx_hi,    l.nx_lo,       l.ny_hi,      l.ny_lo,    l.c_hi,
+            l.c_lo,     l.length,   l.direction.x, l.direction.y};
 }
 
 }  // namespace
@@ -61,20 +63,22 @@ struct PixelWeights::State {
 bool PixelWeights::State::reaches(const VisibleSegment& segment) const {
     const double reach = kernel.lanes.radius * kSlack + kMargin;
     const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
-    return std::min(a.x, b.x) <= reach + (count - 1) && std::max(a.x, b.x) >= -reach && std::min(a.y, b.y) <= reach &&
-           std::max(a.y, b.y) >= -reach;
+    return std::min(a.x, b.x) <= reach + (count - 1) && std::max(a.x, b.x) >= -reach &&
+           std::min(a.y, b.y) <= reach && std::max(a.y, b.y) >= -reach;
 }
 
 void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, Owner right) {
     for (int slot = 0; slot < 2; ++slot)
         for (int i = 0; i < count; ++i)
             if (terms.crossed[slot] >> i & 1u)
-                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i], terms.spread[slot][i], slot == 0 ? left : right,
+                crossings[i].push_back({terms.order[slot][i], terms.position[slot][i], terms.doubt[slot][i],
+                                        terms.spread[slot][i], slot == 0 ? left : right,
                                         slot == 0 ? right : left});
 }
 
 /// Lanes whose point (sample.x + R, sample.y) the segment's box comes near to.
-void PixelWeights::State::addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
+void PixelWeights::State::addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left,
+                                   Owner right) {
     const double R = kernel.lanes.radius, margin = kMargin;
     const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
     if (std::min(a.y, b.y) > margin || std::max(a.y, b.y) < -margin) return;
@@ -113,7 +117,8 @@ void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out
     for (int i = 0; i < s.count; ++i) {
         const Owner base = s.bases[i].known() ? s.bases[i].owner : base_owner[i];
         s.conflicts += static_cast<unsigned>(shareBorder(s.crossings[i], s.radial(), base, s.shares));
-        for (const BorderShare& share : s.shares) wrappingAdd(s.table.row(share.owner).weight[i], share.share);
+        for (const BorderShare& share : s.shares)
+            wrappingAdd(s.table.row(share.owner).weight[i], share.share);
     }
     const std::vector<OwnerTable::Row>& rows = s.table.sorted();
     for (int i = 0; i < s.count; ++i) {
@@ -124,7 +129,11 @@ void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out
     offset[s.count] = out.size();
 }
 
-std::uint64_t PixelWeights::terms() const { return state_->term_count; }
-std::uint64_t PixelWeights::label_conflicts() const { return state_->conflicts; }
+std::uint64_t PixelWeights::terms() const {
+    return state_->term_count;
+}
+std::uint64_t PixelWeights::label_conflicts() const {
+    return state_->conflicts;
+}
 
 }  // namespace edgewise

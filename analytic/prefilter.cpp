@@ -25,7 +25,8 @@ constexpr Known kKnown[] = {
     {"gaussian", KernelKind::kGaussian, 2, 0, 0, "gaussian: exp(-r^2/(2 s^2)) on r < R; R 2, s R/3"},
     {"gaussian-separable", KernelKind::kGaussianSeparable, 2, 0, 0,
      "gaussian-separable: exp(-r^2/(2 s^2)) on the square [-R, R]^2; R 2, s R/3"},
-    {"bspline", KernelKind::kCubic, 2, 1, 0, "bspline: cubic family, (B, C) = (1, 0), support [-R, R]^2; R 2"},
+    {"bspline", KernelKind::kCubic, 2, 1, 0,
+     "bspline: cubic family, (B, C) = (1, 0), support [-R, R]^2; R 2"},
     {"mitchell", KernelKind::kCubic, 2, 1.0 / 3.0, 1.0 / 3.0,
      "mitchell: cubic family, (B, C) = (1/3, 1/3), support [-R, R]^2; R 2"},
     {"catmull-rom", KernelKind::kCubic, 2, 0, 0.5,
@@ -37,11 +38,13 @@ constexpr Known kKnown[] = {
 
 constexpr std::size_t kMostPolyCoefficients = 32;
 constexpr double kMostPolyCancellation = 256.0;
-/// Below the screen's grid or beyond its guard band a support means nothing; smaller sigmas leave doubles' range.
+/// Below the screen's grid or beyond its guard band a support means nothing; smaller sigmas leave doubles'
+/// range.
 constexpr double kLeastRadius = 0x1p-32, kMostRadius = 0x1p20, kLeastSigmaToRadius = 0x1p-30;
 constexpr double kMostLanczosRadius = 256.0;  // its table has four intervals a pixel
-/// Fixed point 2^-60 in 63 bits holds less than 8. With A = int |W|: a weight is at most (1 + A)/2, a fan term, which lies in
-/// a half disk, A/2, and a strip term sup |K| int |k| <= (1 + sqrt A)/2 sqrt A: for A = 12 all are below 7.8.
+/// Fixed point 2^-60 in 63 bits holds less than 8. With A = int |W|: a weight is at most (1 + A)/2, a fan
+/// term, which lies in a half disk, A/2, and a strip term sup |K| int |k| <= (1 + sqrt A)/2 sqrt A: for A =
+/// 12 all are below 7.8.
 constexpr double kMostAbsoluteIntegral = 12.0;
 
 std::string quoted(std::string_view text) {
@@ -59,7 +62,8 @@ const Known& find(std::string_view name, std::string_view stem) {
     std::string names;
     for (const Known& known : kKnown) {
         if (known.name == stem) return known;
-        names += (names.empty() ? "" : ", ") + std::string(known.line.substr(0, known.line.find_first_of(" :")));
+        names +=
+            (names.empty() ? "" : ", ") + std::string(known.line.substr(0, known.line.find_first_of(" :")));
         if (known.name == "bc") names += ":B,C";
         if (known.name == "poly") names += ":c0,c1,...";
     }
@@ -89,7 +93,8 @@ void takeParameters(Prefilter& filter, std::string_view stem, std::string_view n
     const bool wants = stem == "bc" || stem == "poly";
     if (!wants && colon != std::string_view::npos) refuse(name, std::string(stem) + " takes no parameters");
     if (!wants) return;
-    if (colon == std::string_view::npos) refuse(name, "parameters are missing: " + std::string(stem) + ":...");
+    if (colon == std::string_view::npos)
+        refuse(name, "parameters are missing: " + std::string(stem) + ":...");
     const std::vector<double> numbers = parseNumbers(name, name.substr(colon + 1));
     if (stem == "poly") {
         filter.poly = numbers;
@@ -101,7 +106,8 @@ void takeParameters(Prefilter& filter, std::string_view stem, std::string_view n
 }
 
 double positive(std::string_view name, const char* what, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) refuse(name, std::string(what) + " must be positive and finite");
+    if (!(value > 0.0) || !std::isfinite(value))
+        refuse(name, std::string(what) + " must be positive and finite");
     return value;
 }
 
@@ -116,7 +122,8 @@ void checkPoly(const Prefilter& filter) {
     if (filter.poly.size() > kMostPolyCoefficients) refuse(filter.name, "more than 32 coefficients");
     const double integral = polyIntegral(filter.poly);
     double absolute = 0.0;
-    for (std::size_t k = 0; k < filter.poly.size(); ++k) absolute += std::abs(filter.poly[k]) / static_cast<double>(2 * k + 2);
+    for (std::size_t k = 0; k < filter.poly.size(); ++k)
+        absolute += std::abs(filter.poly[k]) / static_cast<double>(2 * k + 2);
     if (!(integral > 0.0)) refuse(filter.name, "its integral is not positive");
     if (!(absolute < kMostPolyCancellation * integral))
         refuse(filter.name, "its coefficients cancel to less than 1/256 of their size");
@@ -137,7 +144,8 @@ void checkLobes(const Prefilter& filter) {
         }
         absolute /= polyIntegral(filter.poly);
     }
-    if (!(absolute < kMostAbsoluteIntegral)) refuse(filter.name, "its negative lobes are too strong: int |W| must be below 12 int W");
+    if (!(absolute < kMostAbsoluteIntegral))
+        refuse(filter.name, "its negative lobes are too strong: int |W| must be below 12 int W");
 }
 
 double radialValue(const Prefilter& f, double r2) {
@@ -167,12 +175,15 @@ Prefilter makePrefilter(std::string_view name, std::optional<double> radius, std
     filter.c = known.c;
     takeParameters(filter, stem, name);
     filter.radius = positive(name, "the radius", radius.value_or(known.radius));
-    if (filter.radius < kLeastRadius || filter.radius > kMostRadius) refuse(name, "the radius must lie in [2^-32, 2^20] px");
-    if (known.kind == KernelKind::kLanczos && filter.radius > kMostLanczosRadius) refuse(name, "the radius must be at most 256");
+    if (filter.radius < kLeastRadius || filter.radius > kMostRadius)
+        refuse(name, "the radius must lie in [2^-32, 2^20] px");
+    if (known.kind == KernelKind::kLanczos && filter.radius > kMostLanczosRadius)
+        refuse(name, "the radius must be at most 256");
     const bool gaussian = known.kind == KernelKind::kGaussian || known.kind == KernelKind::kGaussianSeparable;
     if (sigma && !gaussian) refuse(name, "takes no sigma");
     if (gaussian) filter.sigma = positive(name, "sigma", sigma.value_or(filter.radius / 3.0));
-    if (gaussian && *filter.sigma < kLeastSigmaToRadius * filter.radius) refuse(name, "sigma must be at least 2^-30 R");
+    if (gaussian && *filter.sigma < kLeastSigmaToRadius * filter.radius)
+        refuse(name, "sigma must be at least 2^-30 R");
     if (filter.kind == KernelKind::kPoly) checkPoly(filter);
     if (!filter.radial()) filter.table = std::make_shared<KernelTable>(makeKernelTable(filter));
     checkLobes(filter);

@@ -10,7 +10,9 @@ using QuadReal = long double;
 static_assert(__LDBL_MANT_DIG__ == 113, "tables need 113 bits");
 #endif
 
-inline QuadReal quadAbs(QuadReal x) { return x < 0 ? -x : x; }
+inline QuadReal quadAbs(QuadReal x) {
+    return x < 0 ? -x : x;
+}
 QuadReal quadPi();
 QuadReal quadSinPi(QuadReal x);  ///< sin(pi x), relative error < 2^-100 away from its zeros
 QuadReal quadExp(QuadReal x);    ///< e^x, |x| < 10000

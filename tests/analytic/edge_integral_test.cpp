@@ -20,12 +20,17 @@ struct Edge {
     Point a, b;  // relative to the sample, multiples of 2^-32
 };
 
-double grid(double x) { return std::round(x * 0x1p32) * 0x1p-32; }
-Point grid(Point p) { return {grid(p.x), grid(p.y)}; }
+double grid(double x) {
+    return std::round(x * 0x1p32) * 0x1p-32;
+}
+Point grid(Point p) {
+    return {grid(p.x), grid(p.y)};
+}
 
 /// The adversarial categories of the closed forms' study.
-const char* const kCategories[] = {"generic", "near centre", "through centre", "tangent", "tiny", "huge", "vertex near centre",
-                                   "near radial", "end on circle", "near horizontal", "near vertical"};
+const char* const kCategories[] = {
+    "generic",     "near centre",   "through centre",  "tangent",      "tiny", "huge", "vertex near centre",
+    "near radial", "end on circle", "near horizontal", "near vertical"};
 
 class EdgeMaker {
   public:
@@ -40,16 +45,21 @@ class EdgeMaker {
         if (category == "through centre") return between(0.0 * n - uniform(0, 1) * R_ * d, d, len, true);
         if (category == "tangent") return between((1 - small()) * R_ * n - 0.5 * len * d, d, len);
         if (category == "tiny") return between(uniform(-0.7, 0.7) * R_ * n + 0.7 * t * d, d, small() * R_);
-        if (category == "huge") return between(uniform(-1, 1) * R_ * n - std::exp2(uniform(7, 18)) * d, d, std::exp2(uniform(8, 19)));
+        if (category == "huge")
+            return between(uniform(-1, 1) * R_ * n - std::exp2(uniform(7, 18)) * d, d,
+                           std::exp2(uniform(8, 19)));
         if (category == "vertex near centre") return between(small() * R_ * n, d, len);
         if (category == "near radial") return between(small() * R_ * n + small() * d, d, len);
-        if (category == "end on circle") return between(R_ * d, -1.0 * Point(std::cos(angle + uniform(-1, 1)), std::sin(angle)), len);
+        if (category == "end on circle")
+            return between(R_ * d, -1.0 * Point(std::cos(angle + uniform(-1, 1)), std::sin(angle)), len);
         const double tilt = small();
         const Point h = category == "near horizontal" ? Point(1, tilt) : Point(tilt, 1);
         return between(Point(t, uniform(-R_, R_)) - len * h, h, 2 * len);
     }
 
-    double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+    double uniform(double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random_);
+    }
 
   private:
     double small() { return std::exp2(-uniform(3, 30)); }
@@ -70,8 +80,9 @@ EdgeTerms termsOf(const EdgeKernel& kernel, Edge edge, EdgeTermsFunction functio
     const CarrierLine& l = m.line;
     EdgeTerms terms{};
     function(kernel.lanes,
-             {sample.x, sample.y, s.a.grid.x, s.a.grid.y, 0, 0, s.b.grid.x, s.b.grid.y, 0, 0, s.length, l.origin.x, l.origin.y,
-              l.nx_hi, l.nx_lo, l.ny_hi, l.ny_lo, 0, 0, l.length, l.direction.x, l.direction.y},
+             {sample.x, sample.y, s.a.grid.x,    s.a.grid.y,   0,       0,       s.b.grid.x, s.b.grid.y, 0,
+              0,        s.length, l.origin.x,    l.origin.y,   l.nx_hi, l.nx_lo, l.ny_hi,    l.ny_lo,    0,
+              0,        l.length, l.direction.x, l.direction.y},
              terms);
     return terms;
 }
@@ -95,9 +106,10 @@ struct Foot {
     }
 };
 
-/// What a term and its crossings give the left owner together: F_in + (entry's position) - (exit's position), modulo the
-/// border. Moving the point where the segment leaves the support changes both parts by the same amount, so this, and not
-/// the term of a clipped segment, is what rounding must leave alone. Crossings are those that the code found.
+/// What a term and its crossings give the left owner together: F_in + (entry's position) - (exit's position),
+/// modulo the border. Moving the point where the segment leaves the support changes both parts by the same
+/// amount, so this, and not the term of a clipped segment, is what rounding must leave alone. Crossings are
+/// those that the code found.
 struct Settled {
     Real value = 0, error = 0;
 };
@@ -109,7 +121,8 @@ Settled fanTruth(const KernelTruth& kernel, const Foot& line, const EdgeTerms& t
     const Real c = H < R ? std::sqrt((R - H) * (R + H)) : 0;
     const Real t1 = terms.crossed[0] & 1 ? -c : line.ta, t2 = terms.crossed[1] & 1 ? c : line.tb;
     std::vector<Real> cuts{0};
-    for (Real scale = std::max(H, R * 0x1p-40L); scale < R; scale *= 4) cuts.insert(cuts.end(), {scale, -scale});
+    for (Real scale = std::max(H, R * 0x1p-40L); scale < R; scale *= 4)
+        cuts.insert(cuts.end(), {scale, -scale});
     Real density_error = 0;
     const auto g = [&](Real t) {
         const Integral density = kernel.fanDensity(std::sqrt(line.h * line.h + t * t));
@@ -196,7 +209,8 @@ std::map<std::string, Worst> measure(const Study& study, Real& reported) {
             worst.absolute = std::max(worst.absolute, error);
             if (((terms.crossed[0] | terms.crossed[1]) & 1) || !(terms.touched & 1)) continue;
             ++worst.inside;
-            worst.inside_relative = std::max(worst.inside_relative, error / static_cast<double>(std::abs(exact.value)));
+            worst.inside_relative =
+                std::max(worst.inside_relative, error / static_cast<double>(std::abs(exact.value)));
         }
     }
     return all;
@@ -208,8 +222,8 @@ void check(const Study& study, double relative_bound_u, double absolute_bound_u)
     std::printf("%s, quadrature reports %.2Lg u\n", study.name, reported / kU);
     for (const char* category : kCategories) {
         const Worst& w = all.at(category);
-        std::printf("    %-20s %4d met, %6.2f u absolute; %4d wholly inside, %6.2f u relative\n", category, w.met, w.absolute,
-                    w.inside, w.inside_relative);
+        std::printf("    %-20s %4d met, %6.2f u absolute; %4d wholly inside, %6.2f u relative\n", category,
+                    w.met, w.absolute, w.inside, w.inside_relative);
         EXPECT_GT(w.met, study.edges / 20) << study.name << ", " << category;
         EXPECT_LE(w.absolute, absolute_bound_u) << study.name << ", " << category;
         EXPECT_LE(w.inside_relative, relative_bound_u) << study.name << ", " << category;
@@ -221,13 +235,16 @@ constexpr double kRelativeU = 16, kAbsoluteU = 16;
 
 TEST(EdgeIntegral, FanTermsMatchQuadrature) {
     std::printf("seed %u\n", kSeed);
-    for (const char* name : {"disk", "cone", "gaussian", "poly:1,-2,1"}) check({name, {}, {}, 100, false}, kRelativeU, kAbsoluteU);
-    for (double sigma : {2e-3, 0.2, 20.0, 200.0}) check({"gaussian", 2, sigma, 40, false}, kRelativeU, kAbsoluteU);
+    for (const char* name : {"disk", "cone", "gaussian", "poly:1,-2,1"})
+        check({name, {}, {}, 100, false}, kRelativeU, kAbsoluteU);
+    for (double sigma : {2e-3, 0.2, 20.0, 200.0})
+        check({"gaussian", 2, sigma, 40, false}, kRelativeU, kAbsoluteU);
 }
 
 TEST(EdgeIntegral, StripTermsMatchQuadrature) {
     const double no_relative = std::numeric_limits<double>::infinity();
-    for (const char* name : {"box", "tent", "gaussian-separable", "bspline", "mitchell", "catmull-rom", "lanczos"})
+    for (const char* name :
+         {"box", "tent", "gaussian-separable", "bspline", "mitchell", "catmull-rom", "lanczos"})
         check({name, {}, {}, 40, true}, no_relative, kAbsoluteU);
     check({"gaussian-separable", 4, 0.25, 20, true}, no_relative, kAbsoluteU);
     check({"lanczos", 1.37, {}, 20, true}, no_relative, kAbsoluteU);

@@ -1,5 +1,5 @@
-// The contract's kernels from their definitions in long double, and integrals of them by Gauss-Legendre on many parts:
-// nothing here shares code or formulas with analytic/.
+// The contract's kernels from their definitions in long double, and integrals of them by Gauss-Legendre on
+// many parts: nothing here shares code or formulas with analytic/.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,8 @@ class KernelTruth {
         for (Real scale = 1; f.sigma && scale <= 64; scale *= 2)
             for (Real side : {-1, 1}) knots.push_back(side * scale * *f.sigma);
         if (f.radial())
-            total = 2 * Real(M_PIl) * integrateCut([this](Real r) { return r * shape(r); }, 0, R, knots, 1).value;
+            total =
+                2 * Real(M_PIl) * integrateCut([this](Real r) { return r * shape(r); }, 0, R, knots, 1).value;
         else
             total = integrateCut([this](Real x) { return shape(x); }, -R, R, knots, 1).value;
     }
@@ -92,17 +93,22 @@ class KernelTruth {
         const Real a = std::abs(x);
         switch (f.kind) {
             case KernelKind::kTent:
-            case KernelKind::kCone: return 1 - a / R;
+            case KernelKind::kCone:
+                return 1 - a / R;
             case KernelKind::kGaussian:
-            case KernelKind::kGaussianSeparable: return std::exp(-a * a / (2 * Real(*f.sigma) * *f.sigma));
-            case KernelKind::kCubic: return cubic(2 * a / R);
-            case KernelKind::kLanczos: return sinc(a) * sinc(a / R);
+            case KernelKind::kGaussianSeparable:
+                return std::exp(-a * a / (2 * Real(*f.sigma) * *f.sigma));
+            case KernelKind::kCubic:
+                return cubic(2 * a / R);
+            case KernelKind::kLanczos:
+                return sinc(a) * sinc(a / R);
             case KernelKind::kPoly: {
                 Real sum = 0;
                 for (std::size_t k = f.poly.size(); k-- > 0;) sum = sum * (a / R) * (a / R) + f.poly[k];
                 return sum;
             }
-            default: return 1;
+            default:
+                return 1;
         }
     }
 };

@@ -15,11 +15,16 @@ namespace edgewise::test {
 namespace {
 
 constexpr std::uint32_t kSeed = 20130513;
-const char* const kFilters[] = {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline", "mitchell",
-                                "catmull-rom", "bc:0.2,0.4", "lanczos", "poly:1,-2,1"};
+const char* const kFilters[] = {
+    "box",     "disk",     "tent",        "cone",       "gaussian", "gaussian-separable",
+    "bspline", "mitchell", "catmull-rom", "bc:0.2,0.4", "lanczos",  "poly:1,-2,1"};
 
-double onGrid(double x) { return std::round(x * 0x1p32) * 0x1p-32; }
-glm::dvec2 onGrid(glm::dvec2 p) { return {onGrid(p.x), onGrid(p.y)}; }
+double onGrid(double x) {
+    return std::round(x * 0x1p32) * 0x1p-32;
+}
+glm::dvec2 onGrid(glm::dvec2 p) {
+    return {onGrid(p.x), onGrid(p.y)};
+}
 
 /// A fan of `count` triangles around `hub`, closed at `reach`.
 std::vector<MapTriangle> fanAround(glm::dvec2 hub, double reach, int count) {
@@ -56,17 +61,29 @@ std::vector<std::pair<std::string, std::vector<MapTriangle>>> hardMaps(double R)
         {"vertex on the upper corner", fanAround({s.x + R, s.y - R}, 0.75 * R, 40)},
         {"vertex on the lower corner", fanAround({s.x + R, s.y + R}, 0.75 * R, 41)},
         {"vertex on the axis, many edges", fanAround({s.x + R, s.y}, 0.75 * R, 300)},
-        {"edge along the left side", {{{glm::dvec2(s.x - R, s.y - 8), glm::dvec2(s.x - R, s.y + 8), glm::dvec2(s.x - 20, s.y)}, 2}}},
-        {"triangles across the axis at the border", {{{glm::dvec2(s.x + R, s.y), glm::dvec2(s.x + R + 9, s.y - 5), glm::dvec2(s.x + R + 9, s.y + 7)}, 2}}},
-        {"triangle inside, touching the axis at the border", {{{glm::dvec2(s.x + R, s.y), glm::dvec2(s.x, s.y - 0.25 * R), glm::dvec2(s.x, s.y + 0.25 * R)}, 2}}},
+        {"edge along the left side",
+         {{{glm::dvec2(s.x - R, s.y - 8), glm::dvec2(s.x - R, s.y + 8), glm::dvec2(s.x - 20, s.y)}, 2}}},
+        {"triangles across the axis at the border",
+         {{{glm::dvec2(s.x + R, s.y), glm::dvec2(s.x + R + 9, s.y - 5), glm::dvec2(s.x + R + 9, s.y + 7)},
+           2}}},
+        {"triangle inside, touching the axis at the border",
+         {{{glm::dvec2(s.x + R, s.y), glm::dvec2(s.x, s.y - 0.25 * R), glm::dvec2(s.x, s.y + 0.25 * R)}, 2}}},
         {"vertex on the axis", fanAround({s.x + R, s.y}, 0.75 * R, 7)},
         {"vertex on the left of the axis", fanAround({s.x - R, s.y}, 3 * R, 9)},
-        {"edge through the sample", {{{glm::dvec2(s.x - 8, s.y - 8), glm::dvec2(s.x + 8, s.y + 8), glm::dvec2(s.x - 8, s.y + 8)}, 2}}},
-        {"edge along the side", {{{glm::dvec2(s.x + R, s.y - 8), glm::dvec2(s.x + R, s.y + 8), glm::dvec2(s.x + 20, s.y)}, 2}}},
-        {"edge along the top", {{{glm::dvec2(s.x - 8, s.y - R), glm::dvec2(s.x + 8, s.y - R), glm::dvec2(s.x, s.y - 20)}, 2}}},
-        {"tangent", {{{glm::dvec2(s.x - 8, s.y + R), glm::dvec2(s.x + 8, s.y + R), glm::dvec2(s.x, s.y + 20)}, 2}}},
-        {"island", {{{onGrid(s + 0.1), onGrid(s + 0.1) + glm::dvec2(0x1p-32, 0), onGrid(s + 0.1) + glm::dvec2(0, 0x1p-32)}, 3}}},
-        {"sliver", {{{glm::dvec2(s.x - 30, s.y), glm::dvec2(s.x + 30, s.y + 0x1p-32), glm::dvec2(s.x + 30, s.y)}, 3}}},
+        {"edge through the sample",
+         {{{glm::dvec2(s.x - 8, s.y - 8), glm::dvec2(s.x + 8, s.y + 8), glm::dvec2(s.x - 8, s.y + 8)}, 2}}},
+        {"edge along the side",
+         {{{glm::dvec2(s.x + R, s.y - 8), glm::dvec2(s.x + R, s.y + 8), glm::dvec2(s.x + 20, s.y)}, 2}}},
+        {"edge along the top",
+         {{{glm::dvec2(s.x - 8, s.y - R), glm::dvec2(s.x + 8, s.y - R), glm::dvec2(s.x, s.y - 20)}, 2}}},
+        {"tangent",
+         {{{glm::dvec2(s.x - 8, s.y + R), glm::dvec2(s.x + 8, s.y + R), glm::dvec2(s.x, s.y + 20)}, 2}}},
+        {"island",
+         {{{onGrid(s + 0.1), onGrid(s + 0.1) + glm::dvec2(0x1p-32, 0),
+            onGrid(s + 0.1) + glm::dvec2(0, 0x1p-32)},
+           3}}},
+        {"sliver",
+         {{{glm::dvec2(s.x - 30, s.y), glm::dvec2(s.x + 30, s.y + 0x1p-32), glm::dvec2(s.x + 30, s.y)}, 3}}},
     };
 }
 
@@ -134,26 +151,33 @@ TEST(PixelWeights, OrderLanesAndTranslationLeaveTheBits) {
             std::shuffle(segments.begin(), segments.end(), random);
             EXPECT_EQ(all, weightsOf(weights, filter.radius, triangles, segments, {0.5, 4.5})) << name;
             for (int i = 0; i < 8; ++i)
-                EXPECT_EQ(all[i], weightsOf(weights, filter.radius, triangles, segments, {0.5 + i, 4.5}, 1)[0]) << name;
+                EXPECT_EQ(all[i],
+                          weightsOf(weights, filter.radius, triangles, segments, {0.5 + i, 4.5}, 1)[0])
+                    << name;
             for (MapSegment& s : segments)
-                for (glm::dvec2* p : {&s.segment.a.grid, &s.segment.b.grid, &s.line.origin}) *p += glm::dvec2(4096, -777);
+                for (glm::dvec2* p : {&s.segment.a.grid, &s.segment.b.grid, &s.line.origin})
+                    *p += glm::dvec2(4096, -777);
             for (MapTriangle& t : triangles)
                 for (glm::dvec2& p : t.p) p += glm::dvec2(4096, -777);
-            EXPECT_EQ(all, weightsOf(weights, filter.radius, triangles, segments, {4096.5, 4.5 - 777})) << name;
+            EXPECT_EQ(all, weightsOf(weights, filter.radius, triangles, segments, {4096.5, 4.5 - 777}))
+                << name;
         }
         EXPECT_EQ(weights.label_conflicts(), 0u) << name;
     }
 }
 
-/// Total variation of the kernel in x and in y: moving the sample by e px moves a weight by at most e times this.
+/// Total variation of the kernel in x and in y: moving the sample by e px moves a weight by at most e times
+/// this.
 double variation(const Prefilter& filter) {
     constexpr int kSteps = 400;
     const double step = 2.1 * filter.radius / kSteps;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
         for (int j = 0; j < kSteps; ++j) {
-            const double x = (i - kSteps / 2 + 0.5) * step, y = (j - kSteps / 2 + 0.5) * step, here = evaluate(filter, x, y);
-            sum += step * (std::abs(evaluate(filter, x + step, y) - here) + std::abs(evaluate(filter, x, y + step) - here));
+            const double x = (i - kSteps / 2 + 0.5) * step, y = (j - kSteps / 2 + 0.5) * step,
+                         here = evaluate(filter, x, y);
+            sum += step * (std::abs(evaluate(filter, x + step, y) - here) +
+                           std::abs(evaluate(filter, x, y + step) - here));
         }
     }
     return 1.1 * sum;  // the grid misses some of it
@@ -167,7 +191,8 @@ double largestDifference(const std::map<Owner, FixedWeight>& a, const std::map<O
     return largest;
 }
 
-/// Every end of the map moved by its own tiny amount, the same for all segments that share it: as visibility rounds them.
+/// Every end of the map moved by its own tiny amount, the same for all segments that share it: as visibility
+/// rounds them.
 std::vector<MapSegment> nudgedEnds(std::vector<MapSegment> segments, double size, std::mt19937& random) {
     std::uniform_real_distribution<double> nudge(-size, size);
     std::map<std::array<double, 2>, glm::dvec2> moved;
@@ -177,7 +202,8 @@ std::vector<MapSegment> nudgedEnds(std::vector<MapSegment> segments, double size
     return segments;
 }
 
-/// A wrong label on the border shows as a jump: here nothing may move by more than the kernel's variation allows.
+/// A wrong label on the border shows as a jump: here nothing may move by more than the kernel's variation
+/// allows.
 TEST(PixelWeights, HardMapsAreContinuousAcrossTheirHardSpots) {
     std::mt19937 random(kSeed);
     double worst_shift = 0, worst_nudge = 0;
@@ -187,34 +213,43 @@ TEST(PixelWeights, HardMapsAreContinuousAcrossTheirHardSpots) {
         const double tv = variation(filter);
         for (const auto& [title, triangles] : hardMaps(filter.radius)) {
             const auto segments = segmentsOf(triangles);
+            const std::vector<MapTriangle>& map = triangles;
             const auto get = [&](const std::vector<MapSegment>& list, glm::dvec2 s) {
-                return weightsOf(weights, filter.radius, triangles, list, s, 1)[0];
+                return weightsOf(weights, filter.radius, map, list, s, 1)[0];
             };
             const auto here = get(segments, {3.5, 4.5});
             const double rounding = static_cast<double>(segments.size()) * 16 * 0x1p-53;
-            for (glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1), glm::dvec2(-1, 1)}) {
-                const double moved = largestDifference(here, get(segments, glm::dvec2(3.5, 4.5) + 0x1p-32 * step));
+            for (glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1),
+                                    glm::dvec2(-1, 1)}) {
+                const double moved =
+                    largestDifference(here, get(segments, glm::dvec2(3.5, 4.5) + 0x1p-32 * step));
                 worst_shift = std::max(worst_shift, moved / (tv * 0x1p-31 + rounding));
                 EXPECT_LE(moved, tv * 0x1p-31 + rounding) << name << ", " << title;
             }
-            for (int i = 0; i < 20; ++i) {  // each edge may tilt: its own triangle of 2^-50 px times its length in the support
-                const double bound = rounding + static_cast<double>(segments.size()) * tv * 0x1p-50 * (1 + filter.radius);
-                const double moved = largestDifference(here, get(nudgedEnds(segments, 0x1p-51, random), {3.5, 4.5}));
+            for (int i = 0; i < 20;
+                 ++i) {  // each edge may tilt: its own triangle of 2^-50 px times its length in the support
+                const double bound =
+                    rounding + static_cast<double>(segments.size()) * tv * 0x1p-50 * (1 + filter.radius);
+                const double moved =
+                    largestDifference(here, get(nudgedEnds(segments, 0x1p-51, random), {3.5, 4.5}));
                 worst_nudge = std::max(worst_nudge, moved / bound);
                 EXPECT_LE(moved, bound) << name << ", " << title;
             }
         }
         EXPECT_EQ(weights.label_conflicts(), 0u) << name;
     }
-    std::printf("seed %u; worst shift %.3f, worst nudge %.3f of their bounds\n", kSeed, worst_shift, worst_nudge);
+    std::printf("seed %u; worst shift %.3f, worst nudge %.3f of their bounds\n", kSeed, worst_shift,
+                worst_nudge);
 }
 
-/// Cells of `cell` px cut along random diagonals, random owners, holes: vertices and edges lie on samples, sides and corners.
+/// Cells of `cell` px cut along random diagonals, random owners, holes: vertices and edges lie on samples,
+/// sides and corners.
 std::vector<MapTriangle> randomTiles(std::mt19937& random, double cell) {
     std::vector<MapTriangle> tiles;
     for (int i = -10; i < 10; ++i) {
         for (int j = -10; j < 10; ++j) {
-            const glm::dvec2 a{3.5 + i * cell, 4.5 + j * cell}, b = a + glm::dvec2(cell, 0), c = a + cell, d = a + glm::dvec2(0, cell);
+            const glm::dvec2 a{3.5 + i * cell, 4.5 + j * cell}, b = a + glm::dvec2(cell, 0), c = a + cell,
+                                                                d = a + glm::dvec2(0, cell);
             const bool falling = random() % 2;
             const std::array<glm::dvec2, 3> halves[2] = {{a, b, falling ? c : d}, {falling ? a : b, c, d}};
             for (const auto& half : halves)
@@ -235,16 +270,20 @@ TEST(PixelWeights, TilesOnTheSamplesGridAreContinuous) {
         for (int round = 0; round < 12; ++round) {
             const auto triangles = randomTiles(random, round % 3 == 0 ? 1.0 : round % 3 == 1 ? 0.5 : 0.25);
             const auto segments = segmentsOf(triangles);
-            const auto get = [&](glm::dvec2 s) { return weightsOf(weights, filter.radius, triangles, segments, s, 1)[0]; };
+            const auto get = [&](glm::dvec2 s) {
+                return weightsOf(weights, filter.radius, triangles, segments, s, 1)[0];
+            };
             const auto here = get({3.5, 4.5});
             const double bound = tv * 0x1p-31 + static_cast<double>(segments.size()) * 16 * 0x1p-53;
-            for (glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1), glm::dvec2(1, 1)}) {
+            for (glm::dvec2 step : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1),
+                                    glm::dvec2(1, 1)}) {
                 const double moved = largestDifference(here, get(glm::dvec2(3.5, 4.5) + 0x1p-32 * step));
                 worst = std::max(worst, moved / bound);
                 EXPECT_LE(moved, bound) << name << ", round " << round;
             }
             for (const MapSegment& s : segments)
-                touching += s.segment.a.grid.x == 3.5 + filter.radius && std::abs(s.segment.a.grid.y - 4.5) <= filter.radius;
+                touching += s.segment.a.grid.x == 3.5 + filter.radius &&
+                            std::abs(s.segment.a.grid.y - 4.5) <= filter.radius;
         }
         EXPECT_EQ(weights.label_conflicts(), 0u) << name;
     }

@@ -1,4 +1,5 @@
-// Weights of whole polygons against the kernel integrated over them in two dimensions: no fans, strips, arcs or owners.
+// Weights of whole polygons against the kernel integrated over them in two dimensions: no fans, strips, arcs
+// or owners.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +12,9 @@ namespace {
 
 constexpr std::uint32_t kSeed = 1984;
 
-double grid(double x) { return std::round(x * 0x1p32) * 0x1p-32; }
+double grid(double x) {
+    return std::round(x * 0x1p32) * 0x1p-32;
+}
 
 /// Abscissae where the inner integral is not smooth: corners, and where edges meet a knot line or the circle.
 std::vector<Real> kinks(const MapTriangle& t, glm::dvec2 s, const KernelTruth& kernel) {
@@ -31,7 +34,8 @@ std::vector<Real> kinks(const MapTriangle& t, glm::dvec2 s, const KernelTruth& k
 
 /// The kernel over the row y of the triangle.
 Integral rowIntegral(const MapTriangle& t, glm::dvec2 s, const KernelTruth& kernel, Real y) {
-    const Real half = kernel.f.radial() ? std::sqrt(std::max(Real(0), (kernel.R - y) * (kernel.R + y))) : kernel.R;
+    const Real half =
+        kernel.f.radial() ? std::sqrt(std::max(Real(0), (kernel.R - y) * (kernel.R + y))) : kernel.R;
     Real low = half, high = -half;
     for (int i = 0; i < 3; ++i) {
         const glm::dvec2 p = t.p[i] - s, q = t.p[(i + 1) % 3] - s;
@@ -49,7 +53,8 @@ Integral rowIntegral(const MapTriangle& t, glm::dvec2 s, const KernelTruth& kern
         const Real k = kernel(y);
         return {sum.value * k, sum.error * std::abs(k)};
     }
-    for (Real scale = std::abs(y); scale > 0 && scale < kernel.R; scale *= 2) cuts.insert(cuts.end(), {scale, -scale});
+    for (Real scale = std::abs(y); scale > 0 && scale < kernel.R; scale *= 2)
+        cuts.insert(cuts.end(), {scale, -scale});
     return integrateCut([&](Real x) { return kernel(std::sqrt(x * x + y * y)); }, low, high, cuts, 1);
 }
 
@@ -59,7 +64,8 @@ Integral triangleIntegral(const MapTriangle& t, glm::dvec2 s, const KernelTruth&
     std::sort(cuts.begin(), cuts.end());
     Integral sum;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        const Real a = std::max(cuts[i], -kernel.R), b = std::min(cuts[i + 1], kernel.R), middle = (a + b) / 2, half = (b - a) / 2;
+        const Real a = std::max(cuts[i], -kernel.R), b = std::min(cuts[i + 1], kernel.R),
+                   middle = (a + b) / 2, half = (b - a) / 2;
         if (!(half > 0)) continue;
         Real row_error = 0;
         const auto row = [&](Real u) {
@@ -76,8 +82,8 @@ Integral triangleIntegral(const MapTriangle& t, glm::dvec2 s, const KernelTruth&
 
 TEST(PolygonWeights, TrianglesMatchTheirIntegralInTwoDimensions) {
     std::printf("seed %u\n", kSeed);
-    for (const char* name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline", "mitchell",
-                             "catmull-rom", "lanczos", "poly:1,-2,1"}) {
+    for (const char* name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline",
+                             "mitchell", "catmull-rom", "lanczos", "poly:1,-2,1"}) {
         const Prefilter filter = makePrefilter(name, {}, {});
         const KernelTruth kernel(filter);
         PixelWeights weights(filter);
@@ -97,8 +103,9 @@ TEST(PolygonWeights, TrianglesMatchTheirIntegralInTwoDimensions) {
             reported = std::max(reported, exact.error);
             worst = std::max(worst, std::abs(got - exact.value) - exact.error);
         }
-        std::printf("%-20s worst %6.2Lf u beyond the quadrature's own %8.2Lf u, %d partial, %d over the sample\n", name,
-                    worst * 0x1p53L, reported * 0x1p53L, partial, whole);
+        std::printf(
+            "%-20s worst %6.2Lf u beyond the quadrature's own %8.2Lf u, %d partial, %d over the sample\n",
+            name, worst * 0x1p53L, reported * 0x1p53L, partial, whole);
         EXPECT_LE(worst, 3 * 16 * 0x1p-53L) << name;  // three edges of 16 u
         EXPECT_LE(reported, 0x1p-38L) << name;
         EXPECT_GT(partial, 20) << name;

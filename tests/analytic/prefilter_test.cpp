@@ -12,8 +12,9 @@
 namespace edgewise::test {
 namespace {
 
-const char* const kNames[] = {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline", "mitchell",
-                              "catmull-rom", "bc:0.2,0.4", "lanczos", "poly:1,-2,1"};
+const char* const kNames[] = {
+    "box",     "disk",     "tent",        "cone",       "gaussian", "gaussian-separable",
+    "bspline", "mitchell", "catmull-rom", "bc:0.2,0.4", "lanczos",  "poly:1,-2,1"};
 
 TEST(Prefilter, DefaultsAreTheContracts) {
     const double radii[] = {0.5, 0.5, 1, 1, 2, 2, 2, 2, 2, 2, 3, 2};
@@ -50,7 +51,8 @@ TEST(Prefilter, ValuesMatchTheDefinitions) {
         }
     }
     std::printf("worst error %.2f u of the peak\n", worst * 0x1p53);
-    EXPECT_LE(worst, 64 * 0x1p-53);  // Horner of up to 24 coefficients twice, each sum at most the peak's size
+    EXPECT_LE(worst,
+              64 * 0x1p-53);  // Horner of up to 24 coefficients twice, each sum at most the peak's size
 }
 
 TEST(Prefilter, FittedTablesAreFinerThanDouble) {
@@ -58,8 +60,8 @@ TEST(Prefilter, FittedTablesAreFinerThanDouble) {
         for (double radius : {0.05, 0.5, 1.0, 2.0, 3.0, 8.0, 20.0}) {
             const Prefilter filter = makePrefilter(name, radius, {});
             const KernelTable& table = *filter.table;
-            std::printf("%-20s R %5.2f: %3d intervals, degree %2d, fit 2^%.1f, %d nodes\n", name, radius, table.intervals(),
-                        table.k_count - 1, std::log2(table.fit_error), table.rule.count());
+            std::printf("%-20s R %5.2f: %3d intervals, degree %2d, fit 2^%.1f, %d nodes\n", name, radius,
+                        table.intervals(), table.k_count - 1, std::log2(table.fit_error), table.rule.count());
             EXPECT_LE(table.fit_error, 0x1p-56);
         }
     }
@@ -77,12 +79,15 @@ std::string refusal(const char* name, std::optional<double> radius, std::optiona
 TEST(Prefilter, RefusesWhatTheContractRefuses) {
     const double nan = std::nan(""), infinity = INFINITY;
     EXPECT_NE(refusal("gauss", {}, {}).find("gaussian-separable, bspline, mitchell"), std::string::npos);
-    for (const char* name : {"", "box:1", "bc", "bc:1", "bc:1,2,3", "bc:a,b", "bc:1,", "bc:1,nan", "bc:0,50", "poly", "poly:",
-                             "poly:1,x", "poly:0", "poly:-1", "poly:1,-2", "poly:1,inf", "poly:1 ", "Box"})
+    for (const char* name :
+         {"", "box:1", "bc", "bc:1", "bc:1,2,3", "bc:a,b", "bc:1,", "bc:1,nan", "bc:0,50", "poly",
+          "poly:", "poly:1,x", "poly:0", "poly:-1", "poly:1,-2", "poly:1,inf", "poly:1 ", "Box"})
         EXPECT_NE(refusal(name, {}, {}), "") << name;
     for (const char* name : kNames)
-        for (double radius : {0.0, -1.0, nan, infinity, -infinity}) EXPECT_NE(refusal(name, radius, {}), "") << name << radius;
-    for (const char* name : {"box", "disk", "lanczos", "poly:1"}) EXPECT_NE(refusal(name, {}, 1.0).find("sigma"), std::string::npos);
+        for (double radius : {0.0, -1.0, nan, infinity, -infinity})
+            EXPECT_NE(refusal(name, radius, {}), "") << name << radius;
+    for (const char* name : {"box", "disk", "lanczos", "poly:1"})
+        EXPECT_NE(refusal(name, {}, 1.0).find("sigma"), std::string::npos);
     for (double sigma : {0.0, -1.0, nan, infinity}) EXPECT_NE(refusal("gaussian", {}, sigma), "");
     EXPECT_EQ(refusal("lanczos", 256.0, {}), "");
     for (double sigma : {2e-3, 200.0}) EXPECT_EQ(refusal("gaussian", 2.0, sigma), "");
@@ -93,7 +98,9 @@ TEST(Prefilter, EveryFilterIsDescribed) {
     EXPECT_EQ(lines.size(), 12u);
     for (const char* name : kNames) {
         const std::string stem = std::string(name).substr(0, std::string(name).find(':'));
-        EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& l) { return l.rfind(stem + ":", 0) == 0; })) << stem;
+        EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& l) {
+            return l.rfind(stem + ":", 0) == 0;
+        })) << stem;
     }
 }
 

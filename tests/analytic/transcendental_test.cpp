@@ -17,7 +17,8 @@ constexpr int kRounds = 400000;
 double ulps(double got, long double exact) {
     int exponent = 0;
     std::frexp(static_cast<double>(exact), &exponent);
-    return static_cast<double>(std::abs(static_cast<long double>(got) - exact) / std::ldexp(1.0L, exponent - 53));
+    return static_cast<double>(std::abs(static_cast<long double>(got) - exact) /
+                               std::ldexp(1.0L, exponent - 53));
 }
 
 void expectWithin(double bound, const char* name, const std::function<double(std::mt19937&)>& draw,
@@ -36,22 +37,37 @@ void expectWithin(double bound, const char* name, const std::function<double(std
     EXPECT_LE(worst, bound) << name;
 }
 
-double uniform(std::mt19937& random, double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
-double logUniform(std::mt19937& random, double from, double to) { return std::exp2(uniform(random, from, to)); }
+double uniform(std::mt19937& random, double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+}
+double logUniform(std::mt19937& random, double from, double to) {
+    return std::exp2(uniform(random, from, to));
+}
 
 TEST(Transcendental, WithinTheirStatedUlps) {
-    expectWithin(2, "exp", [](auto& r) { return uniform(r, -690, 690); }, f64::expReal, [](double x) { return std::exp(static_cast<long double>(x)); });
-    expectWithin(2.5, "phi1", [](auto& r) { return logUniform(r, -60, 12); }, f64::phi1,
-                 [](double x) { return -std::expm1(-static_cast<long double>(x)) / x; });
-    expectWithin(1, "log", [](auto& r) { return logUniform(r, -1000, 1000); }, f64::logReal, [](double x) { return std::log(static_cast<long double>(x)); });
-    expectWithin(1, "log~1", [](auto& r) { return 1 + uniform(r, -0.4, 0.6) * logUniform(r, -40, 0); }, f64::logReal,
-                 [](double x) { return std::log(static_cast<long double>(x)); });
-    expectWithin(2, "erf", [](auto& r) { return (r() % 2 ? 1 : -1) * logUniform(r, -40, 2.5); }, f64::erfReal, [](double x) { return std::erf(static_cast<long double>(x)); });
-    expectWithin(4, "atanh", [](auto& r) { return logUniform(r, -50, 0); },
-                 [](double rest) { return f64::atanhOfParts(1 - rest, 1, 1 - (1 - rest)); },
-                 [](double rest) { return std::atanh(static_cast<long double>(1 - rest)); });
-    expectWithin(4, "atanh0", [](auto& r) { return logUniform(r, -50, -1); },
-                 [](double x) { return f64::atanhOfParts(x, 1, 1 - x); }, [](double x) { return std::atanh(static_cast<long double>(x)); });
+    expectWithin(
+        2, "exp", [](auto& r) { return uniform(r, -690, 690); }, f64::expReal,
+        [](double x) { return std::exp(static_cast<long double>(x)); });
+    expectWithin(
+        2.5, "phi1", [](auto& r) { return logUniform(r, -60, 12); }, f64::phi1,
+        [](double x) { return -std::expm1(-static_cast<long double>(x)) / x; });
+    expectWithin(
+        1, "log", [](auto& r) { return logUniform(r, -1000, 1000); }, f64::logReal,
+        [](double x) { return std::log(static_cast<long double>(x)); });
+    expectWithin(
+        1, "log~1", [](auto& r) { return 1 + uniform(r, -0.4, 0.6) * logUniform(r, -40, 0); }, f64::logReal,
+        [](double x) { return std::log(static_cast<long double>(x)); });
+    expectWithin(
+        2, "erf", [](auto& r) { return (r() % 2 ? 1 : -1) * logUniform(r, -40, 2.5); }, f64::erfReal,
+        [](double x) { return std::erf(static_cast<long double>(x)); });
+    expectWithin(
+        4, "atanh", [](auto& r) { return logUniform(r, -50, 0); },
+        [](double rest) { return f64::atanhOfParts(1 - rest, 1, 1 - (1 - rest)); },
+        [](double rest) { return std::atanh(static_cast<long double>(1 - rest)); });
+    expectWithin(
+        4, "atanh0", [](auto& r) { return logUniform(r, -50, -1); },
+        [](double x) { return f64::atanhOfParts(x, 1, 1 - x); },
+        [](double x) { return std::atanh(static_cast<long double>(x)); });
 }
 
 TEST(Transcendental, Atan2InEveryQuadrant) {
@@ -59,9 +75,11 @@ TEST(Transcendental, Atan2InEveryQuadrant) {
     double worst = 0;
     int quadrants[4] = {};
     for (int i = 0; i < kRounds; ++i) {
-        const double y = (random() % 2 ? 1 : -1) * logUniform(random, -20, 20), x = (random() % 2 ? 1 : -1) * logUniform(random, -20, 20);
+        const double y = (random() % 2 ? 1 : -1) * logUniform(random, -20, 20),
+                     x = (random() % 2 ? 1 : -1) * logUniform(random, -20, 20);
         ++quadrants[(y < 0) * 2 + (x < 0)];
-        worst = std::max(worst, ulps(f64::atan2Real(y, x), std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
+        worst = std::max(worst, ulps(f64::atan2Real(y, x),
+                                     std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
     }
     std::printf("atan2  worst %.3f ulp (seed %u)\n", worst, kSeed);
     EXPECT_LE(worst, 2.0);

@@ -21,7 +21,9 @@ struct MapSegment {
     CarrierLine line;
 };
 
-inline double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+inline double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// The line and segment between two points on the grid, directed towards +y, or -x if horizontal.
 inline MapSegment segmentBetween(glm::dvec2 a, glm::dvec2 b, std::uint32_t index) {
@@ -31,7 +33,8 @@ inline MapSegment segmentBetween(glm::dvec2 a, glm::dvec2 b, std::uint32_t index
     s.line.origin = a;
     s.line.nx_hi = -e.y;
     s.line.ny_hi = e.x;
-    s.line.length = static_cast<double>(std::sqrt(static_cast<long double>(e.x) * e.x + static_cast<long double>(e.y) * e.y));
+    s.line.length = static_cast<double>(
+        std::sqrt(static_cast<long double>(e.x) * e.x + static_cast<long double>(e.y) * e.y));
     s.line.direction = e / s.line.length;
     s.segment.a.grid = a;
     s.segment.b.grid = b;
@@ -45,7 +48,8 @@ inline std::vector<MapSegment> segmentsOf(const std::vector<MapTriangle>& triang
     std::map<Key, MapSegment> edges;
     for (const MapTriangle& t : triangles) {
         for (int i = 0; i < 3; ++i) {
-            MapSegment fresh = segmentBetween(t.p[i], t.p[(i + 1) % 3], static_cast<std::uint32_t>(edges.size()));
+            MapSegment fresh =
+                segmentBetween(t.p[i], t.p[(i + 1) % 3], static_cast<std::uint32_t>(edges.size()));
             const glm::dvec2 a = fresh.segment.a.grid, b = fresh.segment.b.grid;
             MapSegment& edge = edges.try_emplace(Key{a.x, a.y, b.x, b.y}, fresh).first->second;
             (cross(b - a, t.p[(i + 2) % 3] - a) > 0 ? edge.segment.left : edge.segment.right) = t.owner;
@@ -61,7 +65,8 @@ inline Owner ownerAt(const std::vector<MapTriangle>& triangles, glm::dvec2 q) {
     for (const MapTriangle& t : triangles) {
         const double side = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]) > 0 ? 1 : -1;
         bool inside = true;
-        for (int i = 0; i < 3; ++i) inside = inside && side * cross(t.p[(i + 1) % 3] - t.p[i], q - t.p[i]) >= 0;
+        for (int i = 0; i < 3; ++i)
+            inside = inside && side * cross(t.p[(i + 1) % 3] - t.p[i], q - t.p[i]) >= 0;
         if (inside) return t.owner;
     }
     return kBackground;
@@ -84,6 +89,8 @@ inline Weights weightsOf(PixelWeights& weights, double radius, const std::vector
     return result;
 }
 
-inline double toDouble(FixedWeight weight) { return static_cast<double>(weight) * 0x1p-60; }
+inline double toDouble(FixedWeight weight) {
+    return static_cast<double>(weight) * 0x1p-60;
+}
 
 }  // namespace edgewise::test

@@ -32,21 +32,25 @@ void pixelWeights(benchmark::State& state, const std::string& name) {
     const Owner base[8] = {};
     for (auto _ : state) {
         weights.begin(sample, 8);
-        for (const MapSegment& s : segments) weights.add(s.segment, s.line, s.segment.line % 50, s.segment.line % 50 + 1);
+        for (const MapSegment& s : segments)
+            weights.add(s.segment, s.line, s.segment.line % 50, s.segment.line % 50 + 1);
         out.clear();
         weights.finish(base, out, offset);
         benchmark::DoNotOptimize(out.data());
     }
-    state.counters["ns_per_term"] = benchmark::Counter(static_cast<double>(weights.terms()) * 1e-9,
-                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters["terms_per_call"] = static_cast<double>(weights.terms()) / static_cast<double>(state.iterations() * 1000);
+    state.counters["ns_per_term"] =
+        benchmark::Counter(static_cast<double>(weights.terms()) * 1e-9,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["terms_per_call"] =
+        static_cast<double>(weights.terms()) / static_cast<double>(state.iterations() * 1000);
 }
 
 }  // namespace
 }  // namespace edgewise::test
 
 int main(int count, char** arguments) {
-    for (const char* name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline", "mitchell", "lanczos", "poly:1,-2,1"})
+    for (const char* name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline",
+                             "mitchell", "lanczos", "poly:1,-2,1"})
         benchmark::RegisterBenchmark(name, edgewise::test::pixelWeights, std::string(name));
     benchmark::Initialize(&count, arguments);
     benchmark::RunSpecifiedBenchmarks();
