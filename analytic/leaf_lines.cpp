@@ -213,7 +213,10 @@ void LeafLines::sortKeys() {
     }
     for (const LeafEvent& event : events) addKey(event.key, yOf(event.point));
     for (const LeafHorizontal& h : horizontals) addKey(h.key, h.y);
-    const auto byKey = [](const auto& a, const auto& b) { return a.first < b.first; };
+    // Of ordinates that share a key the one nearest to the grid stands for all: a vertex, if there is one.
+    const auto byKey = [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first < b.first : std::abs(a.second.rest) < std::abs(b.second.rest);
+    };
     std::sort(key_scratch_.begin(), key_scratch_.end(), byKey);
     keys.assign(1, frame.top), ordinates.assign(1, border(frame.cell.min.y));
     for (const auto& [key, y] : key_scratch_) {

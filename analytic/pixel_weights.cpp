@@ -44,7 +44,7 @@ struct PixelWeights::State {
 
     bool reaches(const VisibleSegment& segment) const;
     bool radial() const { return kernel.lanes.form != TermForm::kStrip; }
-    void addBorder(const VisibleSegment& segment, Owner left, Owner right);
+    void addBorder(Owner left, Owner right);
     void addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
     EdgeKernel kernel;
@@ -67,7 +67,7 @@ bool PixelWeights::State::reaches(const VisibleSegment& segment) const {
            std::min(a.y, b.y) <= reach && std::max(a.y, b.y) >= -reach;
 }
 
-void PixelWeights::State::addBorder(const VisibleSegment& segment, Owner left, Owner right) {
+void PixelWeights::State::addBorder(Owner left, Owner right) {
     for (int slot = 0; slot < 2; ++slot)
         for (int i = 0; i < count; ++i)
             if (terms.crossed[slot] >> i & 1u)
@@ -109,7 +109,7 @@ void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, O
     s.term_count += static_cast<unsigned>(__builtin_popcount(touched));
     addLanes(s.table, left, s.terms.value, 1);
     addLanes(s.table, right, s.terms.value, -1);
-    s.addBorder(segment, left, right);
+    s.addBorder(left, right);
 }
 
 void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {

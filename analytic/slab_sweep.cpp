@@ -317,7 +317,10 @@ void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner 
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
         if (line.x_low > from.x || line.x_high < to.x) continue;
-        const auto pointOf = [&](const Break& b) { return b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point; };
+        const auto pointOf = [&](const Break& b) {
+            const FinePoint& p = b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point;
+            return finePoint(xOf(p), line.y);
+        };
         out->segments.push_back({lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
         return;
     }
