@@ -86,9 +86,7 @@ Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
 std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     Crossings fan(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                   c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
-    const auto key = [](const BorderCrossing& x) {
-        return std::tie(x.spread, x.order, x.before, x.after);
-    };
+    const auto key = [](const BorderCrossing& x) { return std::tie(x.spread, x.order, x.before, x.after); };
     std::sort(fan.begin(), fan.end(),
               [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
     for (std::size_t i = 0; i + 1 < fan.size(); ++i)

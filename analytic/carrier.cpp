@@ -17,11 +17,14 @@ using f64::ddSub;
 using f64::twoSum;
 __extension__ typedef __int128 Int128;
 
-std::int64_t gridSteps(double px) { return static_cast<std::int64_t>(px * 0x1p32); }
+std::int64_t gridSteps(double px) {
+    return static_cast<std::int64_t>(px * 0x1p32);
+}
 
 /// cross(u, v) of grid vectors in units of 2^-64 px^2, exact: |u|, |v| < 2^22 px.
 Int128 crossExact(glm::dvec2 u, glm::dvec2 v) {
-    return static_cast<Int128>(gridSteps(u.x)) * gridSteps(v.y) - static_cast<Int128>(gridSteps(u.y)) * gridSteps(v.x);
+    return static_cast<Int128>(gridSteps(u.x)) * gridSteps(v.y) -
+           static_cast<Int128>(gridSteps(u.y)) * gridSteps(v.x);
 }
 
 DoubleDouble toDoubleDouble(Int128 n) {
@@ -35,7 +38,8 @@ bool edgeBefore(const Carrier& p, const Carrier& q) {
 
 FinePoint pointOnEdge(const Carrier& edge, DoubleDouble t) {
     const glm::dvec2 e = edge.b - edge.a;
-    return finePoint(fineCoordinate(edge.a.x, ddMulReal(t, e.x)), fineCoordinate(edge.a.y, ddMulReal(t, e.y)));
+    return finePoint(fineCoordinate(edge.a.x, ddMulReal(t, e.x)),
+                     fineCoordinate(edge.a.y, ddMulReal(t, e.y)));
 }
 
 /// p.a + (N / D) e: exact signs decide whether, exact integers decide where.

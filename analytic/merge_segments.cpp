@@ -8,7 +8,8 @@ namespace {
 
 /// Along a line towards its direction: +y, or -x where horizontal.
 bool before(const FinePoint& p, const FinePoint& q) {
-    return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) < std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
+    return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) <
+           std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
 }
 
 bool joins(const SegmentPiece& p, const SegmentPiece& q) {
@@ -62,7 +63,8 @@ void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, Vis
     map.row_offset.assign(1, 0);
     map.rows.clear();
     for (std::vector<RowOwner>& row : rows) {
-        std::stable_sort(row.begin(), row.end(), [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
+        std::stable_sort(row.begin(), row.end(),
+                         [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
         const std::size_t begin = map.rows.size();
         for (const RowOwner& entry : row) {
             if (map.rows.size() > begin && map.rows.back().owner == entry.owner) continue;

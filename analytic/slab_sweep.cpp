@@ -61,7 +61,8 @@ struct SlabSweep::State {
     double y_mid = 0.0;  ///< of the slab, from the origin
     std::size_t next_entry, next_event, next_horizontal;
 
-    void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt, CellOutput& output);
+    void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt,
+               CellOutput& output);
     void startSlab(std::size_t slab);
     void locate(std::size_t slab);
     void sweep(std::size_t slab);
@@ -70,7 +71,8 @@ struct SlabSweep::State {
     void emitHorizontals(std::size_t slab);
     void closePiece(std::uint32_t line, const FinePoint& end);
     void toggle(std::uint32_t line);
-    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's borders.
+    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's
+    /// borders.
     Owner nearest(std::uint32_t left, std::uint32_t right, std::size_t slab);
     bool exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
                         std::size_t slab);
@@ -136,7 +138,8 @@ void SlabSweep::State::locate(std::size_t slab) {
         Track& t = tracks[i];
         const LeafLine& line = leaf.lines[i];
         if (line.in1 == key) t.bottom = line.exit, t.bottom_known = true;
-        t.x_bottom = t.bottom_known ? leaf.frame.localX(t.bottom) : line.xAt(leaf.frame, leaf.ordinates[slab + 1]);
+        t.x_bottom =
+            t.bottom_known ? leaf.frame.localX(t.bottom) : line.xAt(leaf.frame, leaf.ordinates[slab + 1]);
         t.x_mid = 0.5 * (t.x_top + t.x_bottom);
     }
     for (std::size_t i = 1; i < order.size(); ++i) {  // nearly sorted: the slab above was
@@ -147,8 +150,8 @@ void SlabSweep::State::locate(std::size_t slab) {
     }
 }
 
-/// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else the
-/// canonical points, which know nothing of the cell.
+/// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else
+/// the canonical points, which know nothing of the cell.
 int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const {
     // x_mid carries 5 roundings of at most 2^-49 px: points lie within two cells of the origin.
     constexpr double kUnsure = 2 * 5 * 0x1p-49;
@@ -158,7 +161,8 @@ int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab
     if (std::abs(d) > kUnsure) return d > 0.0 ? 1 : -1;
     const FineCoordinate p0 = xOf(topPoint(p, slab)), q0 = xOf(topPoint(q, slab));
     const FineCoordinate p1 = xOf(bottomPoint(p, slab)), q1 = xOf(bottomPoint(q, slab));
-    const double fine = ((p0.grid - q0.grid) + (p1.grid - q1.grid)) + ((p0.rest - q0.rest) + (p1.rest - q1.rest));
+    const double fine =
+        ((p0.grid - q0.grid) + (p1.grid - q1.grid)) + ((p0.rest - q0.rest) + (p1.rest - q1.rest));
     return std::abs(fine) <= kSame ? 0 : fine > 0.0 ? 1 : -1;
 }
 
@@ -181,14 +185,14 @@ f64::dd SlabSweep::State::exactMiddle(std::uint32_t line, double border_grid, st
 }
 
 /// Decided at the canonical middle, which knows nothing of the cell's frame.
-bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
-                                      std::size_t slab) {
+bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left,
+                                      std::uint32_t right, std::size_t slab) {
     ++out->counts.exact_depth;
     const f64::dd x = f64::ddAdd(exactMiddle(left, cell.min.x, slab), exactMiddle(right, cell.max.x, slab));
     const f64::dd y = f64::ddAdd(offsetFrom(leaf.ordinates[slab], scene->anchor_px.y),
                                  offsetFrom(leaf.ordinates[slab + 1], scene->anchor_px.y));
-    const int sign = depthDifferenceSign(scene->planes[p.plane], scene->planes[q.plane], {0.5 * x.hi, 0.5 * x.lo},
-                                         {0.5 * y.hi, 0.5 * y.lo});
+    const int sign = depthDifferenceSign(scene->planes[p.plane], scene->planes[q.plane],
+                                         {0.5 * x.hi, 0.5 * x.lo}, {0.5 * y.hi, 0.5 * y.lo});
     return sign != 0 ? sign > 0 : p.owner < q.owner;
 }
 
@@ -291,7 +295,8 @@ void SlabSweep::State::addBreaks(const Profile& profile, int side, std::size_t s
 void SlabSweep::State::emitHorizontals(std::size_t slab) {
     const std::size_t first = next_horizontal;
     const OrderKey key = leaf.keys[slab];
-    while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key) ++next_horizontal;
+    while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key)
+        ++next_horizontal;
     if (first == next_horizontal && !options->check_closure) return;
     breaks.clear();
     addBreaks(above, 0, slab);
@@ -313,7 +318,8 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     }
 }
 
-void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first) {
+void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
+                                      std::size_t first) {
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
         if (line.x_low > from.x || line.x_high < to.x) continue;
@@ -321,7 +327,8 @@ void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner 
             const FinePoint& p = b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point;
             return finePoint(xOf(p), line.y);
         };
-        out->segments.push_back({lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
+        out->segments.push_back(
+            {lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
         return;
     }
     out->counts.widest_gap_px = std::max(out->counts.widest_gap_px, to.x - from.x);
@@ -331,7 +338,8 @@ SlabSweep::SlabSweep() : state_(std::make_unique<State>()) {}
 SlabSweep::~SlabSweep() = default;
 
 void SlabSweep::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
-                    std::span<const std::uint32_t> triangles, const VisibilityOptions& options, CellOutput& out) {
+                    std::span<const std::uint32_t> triangles, const VisibilityOptions& options,
+                    CellOutput& out) {
     State& s = *state_;
     s.leaf.collect(scene, cell, origin, triangles, options, out.counts);
     s.begin(scene, cell, origin, options, out);

@@ -7,7 +7,9 @@
 namespace edgewise {
 namespace {
 
-int floorToCell(int px) { return px - ((px % kCellPx) + kCellPx) % kCellPx; }
+int floorToCell(int px) {
+    return px - ((px % kCellPx) + kCellPx) % kCellPx;
+}
 
 }  // namespace
 

@@ -34,8 +34,8 @@ bool foldsOverSharedSides(SceneKind kind) {
 constexpr double kTargetPx2 = 1e-12;
 constexpr double kWrongArea = 0.1 * kTargetPx2 * 2 * (2 * kReachPx) * (2 * kReachPx);  // along both axes
 
-/// The order of two lines in a slab is decided by abscissae that carry five roundings each, of at most 2^-50 px in a
-/// cell of 16 px: closer lines may be exchanged, over at most the judged height, along both axes.
+/// The order of two lines in a slab is decided by abscissae that carry five roundings each, of at most 2^-50
+/// px in a cell of 16 px: closer lines may be exchanged, over at most the judged height, along both axes.
 constexpr double kOrderArea = 2 * 5 * 0x1p-50 * (2 * kReachPx) * 2;
 
 class VisibilityTruth : public testing::TestWithParam<SceneKind> {};
