@@ -69,14 +69,16 @@ DoubleDouble determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleD
     return ddSub(ddMul(a, d), ddMul(b, c));
 }
 
-/// Cramer's rule in double-double, about the anchor.
+/// Cramer's rule in double-double, about the anchor. Of nearly parallel lines it gives a point that may be off along
+/// them: one coordinate is kept, and the first line gives the other.
 bool crossDepths(const Carrier& p, const Carrier& q, FinePoint& point) {
     const DoubleDouble det = determinant(p.A, p.B, q.A, q.B);
     if (det.hi == 0.0) return false;
     const DoubleDouble x = ddDiv(determinant(p.B, p.C, q.B, q.C), det);
     const DoubleDouble y = ddDiv(determinant(p.C, p.A, q.C, q.A), det);
     if (!(std::abs(x.hi) < kGuardBandPx && std::abs(y.hi) < kGuardBandPx)) return false;
-    point = finePoint(fineCoordinate(p.anchor.x, x), fineCoordinate(p.anchor.y, y));
+    const bool steep = std::abs(p.A.hi) >= std::abs(p.B.hi);
+    point = steep ? pointAtY(p, fineCoordinate(p.anchor.y, y)) : pointAtX(p, fineCoordinate(p.anchor.x, x));
     return true;
 }
 
