@@ -156,6 +156,19 @@ std::uint64_t lineKey(const Carrier& line) {
     return mix(h, std::bit_cast<std::uint64_t>(line.b.x + 0.0));
 }
 
+std::uint64_t closingKey(FineCoordinate y) {
+    return mix(mix(3, std::bit_cast<std::uint64_t>(y.grid + 0.0)), std::bit_cast<std::uint64_t>(y.rest + 0.0));
+}
+
+CarrierLine closingLine(const FinePoint& p) {
+    CarrierLine out;
+    out.origin = p.grid;
+    out.ny_hi = -1.0;
+    out.c_hi = p.rest.y;
+    out.direction = {-1.0, 0.0};
+    return out;
+}
+
 CarrierLine carrierLine(const Carrier& line) {
     CarrierLine out;
     if (line.isEdge()) {
