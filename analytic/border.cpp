@@ -1,6 +1,7 @@
 #include "analytic/border.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -16,13 +17,18 @@ struct Cluster {
     std::size_t first, last;
 };
 
-bool near(const BorderCrossing& a, const BorderCrossing& b) {
-    return b.order - a.order <= a.doubt + b.doubt;
+/// Fills `reaches_back`: how far down this crossing or a later one may lie.
+void noteDoubts(Crossings& c) {
+    double low = HUGE_VAL;
+    for (auto x = c.rbegin(); x != c.rend(); ++x) x->reaches_back = low = std::min(low, x->order - x->doubt);
 }
 
+/// A cluster ends where no crossing before may lie behind any crossing after.
 std::size_t clusterEnd(const Crossings& c, std::size_t first) {
+    double reach = c[first].order + c[first].doubt;
     std::size_t last = first + 1;
-    while (last < c.size() && near(c[last - 1], c[last])) ++last;
+    for (; last < c.size() && c[last].reaches_back <= reach; ++last)
+        reach = std::max(reach, c[last].order + c[last].doubt);
     return last;
 }
 
@@ -94,14 +100,27 @@ std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     return fan.front().before;
 }
 
-/// The label before the first crossing: the first cluster that changes labels decides, else the first that
-/// can be sorted.
-Owner firstLabel(const Crossings& c, Owner base) {
+/// Whether the base's owner says nothing about the cluster: the base point, where `order` is 0, may lie in it, or the
+/// cluster does not know that owner.
+bool doubtsBase(const Crossings& c, Cluster cluster, Owner base, bool circle) {
+    constexpr double kLookup = 0x1p-30;
+    bool known = false;
+    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
+        const double order = circle ? std::remainder(c[i].order, 1.0) : c[i].order;
+        if (std::abs(order) <= kLookup + c[i].doubt) return true;
+        known = known || c[i].before == base;
+    }
+    return !known;
+}
+
+/// The label before the first crossing: the first cluster that changes labels decides. If none does, the whole border
+/// but for their insides has one owner: the base's, unless it lies in a cluster that can be sorted.
+Owner firstLabel(const Crossings& c, Owner base, bool circle) {
     std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
         if (const std::optional<Owner> label = labelBefore(c, cluster)) return *label;
-        if (!touching) touching = labelAroundVertex(c, cluster);
+        if (!touching && doubtsBase(c, cluster, base, circle)) touching = labelAroundVertex(c, cluster);
         first = cluster.last;
     }
     return touching.value_or(base);
@@ -143,7 +162,8 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     }
     sortCrossings(c);
     if (circle) cutInLongestGap(c);
-    const Owner start = firstLabel(c, base);
+    noteDoubts(c);
+    const Owner start = firstLabel(c, base, circle);
     Owner label = start;
     int conflicts = 0;
     for (std::size_t first = 0; first < c.size();) {
