@@ -126,7 +126,7 @@ TEST(Splitting, FlatTrianglesInPartsLookTheSame) {
             b{parts, camera, film, filter, options, progress};
         const MethodResult one = runMethod(parseMethod("nsaa"), a), three = runMethod(parseMethod("nsaa"), b);
         EXPECT_GT(three.counts.at("segments"), one.counts.at("segments"));
-        const test::NsaaStages one_stages(a), three_stages(b);
+        test::NsaaStages one_stages(a), three_stages(b);
         for (int y = 0; y < film.height; ++y)
             for (int x = 0; x < film.width; ++x) {
                 const glm::dvec4 d =

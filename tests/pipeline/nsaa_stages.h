@@ -47,10 +47,10 @@ struct PixelParts {
 class NsaaStages {
   public:
     explicit NsaaStages(const MethodInput& in)
-        : in_(in),
-          screen_(project(in.scene, in.camera, in.film, pieces_)),
+        : screen_(project(in.scene, in.camera, in.film, pieces_)),
           shading_(in.scene, in.camera, in.film, screen_, pieces_),
-          plan_(makePlan(in.scene, screen_, pieces_, shading_, in.options)) {
+          plan_(makePlan(in.scene, screen_, pieces_, shading_, in.options)),
+          worker_(in.filter, plan_.weights) {
         const PixelBox& box = in.film.crop;
         const int reach = static_cast<int>(std::ceil(in.filter.radius)) + 1;
         const CellGrid grid(Window{box.x0 - reach, box.y0 - reach, box.x1 + reach, box.y1 + reach});
@@ -61,15 +61,15 @@ class NsaaStages {
 
     const Plan& plan() const { return plan_; }
 
-    PixelParts pixel(int x, int y) const {
-        WeightWorker worker(in_.filter, plan_.weights);
-        WeightTile tile;
+    PixelParts pixel(int x, int y) {
+        const std::uint64_t terms = worker_.terms(), conflicts = worker_.labelConflicts();
         const std::size_t t = tileOf(x, y);
         const auto& lists = tiles_.segments;
         const auto ids =
             std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]);
-        worker.run(map_, ids, plan_.classes, {x, y, x + 1, y + 1}, glm::dvec2(0.0), tile);
-        return {worker.terms(), worker.labelConflicts(), tile.entries};
+        WeightTile tile;
+        worker_.run(map_, ids, plan_.classes, {x, y, x + 1, y + 1}, glm::dvec2(0.0), tile);
+        return {worker_.terms() - terms, worker_.labelConflicts() - conflicts, std::move(tile.entries)};
     }
 
   private:
@@ -79,11 +79,11 @@ class NsaaStages {
         return t;
     }
 
-    MethodInput in_;
     ScreenPieces pieces_;
     ScreenScene screen_;
     Shading shading_;
     Plan plan_;
+    WeightWorker worker_;
     VisibleMap map_;
     WeightTiles tiles_;
 };

@@ -14,7 +14,12 @@ namespace {
 
 using test::ShippedPicture;
 
-constexpr int kSidePx = 48;
+/// Small: once nothing is hidden, the book's common line is a thousand crossings in every cell down to the
+/// smallest.
+ShippedPicture pictureOf(scenes::Recipe recipe) {
+    if (recipe.file.ends_with("piercing-book.gltf")) recipe.width_px = recipe.height_px = 8;
+    return test::shippedPicture(recipe, 40);
+}
 
 RenderOptions forcing(const std::string& omission) {
     RenderOptions options = test::onBlue();
@@ -48,7 +53,7 @@ class Comparison {
           default_({picture.scene, picture.camera, picture.film, filter, default_options_, progress_}),
           forced_({picture.scene, picture.camera, picture.film, filter, forced_options_, progress_}) {}
 
-    Worst run(const ImageBuffer& a, const ImageBuffer& b) const {
+    Worst run(const ImageBuffer& a, const ImageBuffer& b) {
         Worst worst;
         for (int y = box_.y0; y < box_.y1; ++y)
             for (int x = box_.x0; x < box_.x1; ++x) {
@@ -60,7 +65,7 @@ class Comparison {
     }
 
   private:
-    void checkPixel(int x, int y, const glm::dvec4& difference, Worst& worst) const {
+    void checkPixel(int x, int y, const glm::dvec4& difference, Worst& worst) {
         const double bound = default_.pixel(x, y).colorError() + forced_.pixel(x, y).colorError();
         double largest = 0.0;
         for (glm::length_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(difference[k]));
@@ -71,7 +76,7 @@ class Comparison {
     }
 
     /// An owner may be there in one of both pictures alone, if its weight is no more than rounding.
-    void checkEdge(int x, int y, Worst& worst) const {
+    void checkEdge(int x, int y, Worst& worst) {
         const test::PixelParts a = default_.pixel(x, y), b = forced_.pixel(x, y);
         const double bound = a.colorError() + b.colorError();
         double smallest = 1.0;
@@ -85,14 +90,14 @@ class Comparison {
 
     PixelBox box_;
     RenderOptions default_options_, forced_options_;
-    mutable Progress progress_;
+    Progress progress_;
     test::NsaaStages default_, forced_;
 };
 
 class PlanOf : public testing::TestWithParam<scenes::Recipe> {};
 
 TEST_P(PlanOf, NoOmissionChangesThePicture) {
-    const ShippedPicture picture = test::shippedPicture(GetParam(), kSidePx);
+    const ShippedPicture picture = pictureOf(GetParam());
     for (const char* filter_name : {"box", "gaussian", "mitchell"}) {
         const Prefilter filter = makePrefilter(filter_name, {}, {});
         const MethodResult by_default = renderPicture(picture, filter, forcing(""));
