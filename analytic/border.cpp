@@ -100,17 +100,26 @@ std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     return fan.front().before;
 }
 
-/// Whether the base's owner says nothing about the cluster: the base point, where `order` is 0, may lie in it, or the
-/// cluster does not know that owner.
-bool doubtsBase(const Crossings& c, Cluster cluster, Owner base, bool circle) {
+/// Whether the base point, where `order` is 0, may lie in the cluster. A base owner looked up farther away stands.
+bool holdsBase(const Crossings& c, Cluster cluster, bool circle) {
     constexpr double kLookup = 0x1p-30;
-    bool known = false;
+    return std::any_of(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
+                       c.begin() + static_cast<std::ptrdiff_t>(cluster.last), [=](const BorderCrossing& x) {
+                           const double order = circle ? std::remainder(x.order, 1.0) : x.order;
+                           return std::abs(order) <= kLookup + x.doubt;
+                       });
+}
+
+/// Whether the cluster leaves any label as it was and does not know this one: something touches the border from
+/// outside, behind an edge that touches it too.
+bool passesBy(const Crossings& c, Cluster cluster, Owner label) {
     for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        const double order = circle ? std::remainder(c[i].order, 1.0) : c[i].order;
-        if (std::abs(order) <= kLookup + c[i].doubt) return true;
-        known = known || c[i].before == base;
+        int surplus = 0;
+        for (std::size_t j = cluster.first; j < cluster.last; ++j)
+            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
+        if (surplus != 0 || c[i].before == label) return false;
     }
-    return !known;
+    return true;
 }
 
 /// The label before the first crossing: the first cluster that changes labels decides. If none does, the whole border
@@ -120,7 +129,7 @@ Owner firstLabel(const Crossings& c, Owner base, bool circle) {
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
         if (const std::optional<Owner> label = labelBefore(c, cluster)) return *label;
-        if (!touching && doubtsBase(c, cluster, base, circle)) touching = labelAroundVertex(c, cluster);
+        if (!touching && holdsBase(c, cluster, circle)) touching = labelAroundVertex(c, cluster);
         first = cluster.last;
     }
     return touching.value_or(base);
@@ -168,10 +177,14 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     int conflicts = 0;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
+        first = cluster.last;
+        if (passesBy(c, cluster, label)) {
+            for (std::size_t i = cluster.first; i < cluster.last; ++i) c[i].before = c[i].after = label;
+            continue;
+        }
         const std::optional<Owner> expected = labelBefore(c, cluster);
         if (expected && *expected != label) ++conflicts;
         label = chainLabels(c, cluster, expected.value_or(label));
-        first = cluster.last;
     }
     if (circle && label != start) ++conflicts;
     shares.push_back({start, circle ? 0 : c.front().position});
