@@ -17,7 +17,10 @@ struct LineRef {
 
     static LineRef edge(std::uint32_t triangle, std::uint32_t k) { return {triangle, kFirstEdge + k}; }
     static LineRef depth(std::uint32_t p, std::uint32_t q) { return p < q ? LineRef{p, q} : LineRef{q, p}; }
+    /// A horizontal that no line of the scene carries: see SlabSweep.
+    static LineRef closing() { return {0xffffffffu, kFirstEdge - 1}; }
     bool isEdge() const { return j >= kFirstEdge; }
+    bool isClosing() const { return *this == closing(); }
     auto operator<=>(const LineRef&) const = default;
 };
 
@@ -59,5 +62,9 @@ std::uint64_t lineKey(const Carrier& line);
 
 /// The line as the weights need it.
 CarrierLine carrierLine(const Carrier& line);
+
+/// The same for a closing horizontal through a point.
+std::uint64_t closingKey(FineCoordinate y);
+CarrierLine closingLine(const FinePoint& p);
 
 }  // namespace edgewise

@@ -40,7 +40,7 @@ struct VisibilityCounts {
     std::uint64_t depth_lines = 0;  ///< pairs of planes that change order inside a leaf
     std::uint64_t exact_depth = 0;  ///< depth comparisons that the filter left to exact arithmetic
     std::uint64_t hidden = 0;       ///< (cell, triangle) pairs dropped behind a covering triangle
-    double widest_gap_px = 0.0;     ///< of `check_closure`: widest change of owner that no line explains
+    std::uint64_t closings = 0;       ///< pieces that close what rounded planes left open in a thin slab
 
     void add(const VisibilityCounts& other);
 };
@@ -52,7 +52,6 @@ struct VisibilityOptions {
     bool certify = true;          ///< a cell that one sheet of triangles covers needs no sweep
     bool every_depth_line =
         false;  ///< of all pairs that meet in the cell, not only those that change order in it
-    bool check_closure = false;  ///< measure widest_gap_px: the fuzzer's question
 };
 
 /// Everything visibility emits, appended cell by cell.

@@ -44,8 +44,9 @@ void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces,
     for (std::size_t i = 0; i < pieces.size();) {
         SegmentPiece piece = pieces[i];
         for (++i; i < pieces.size() && joins(piece, pieces[i]); ++i) piece.b = pieces[i].b;
-        if (map.lines.empty() || !sameLine(scene, last, piece.line)) {
-            map.lines.push_back(carrierLine(carrierOf(scene, piece.line)));
+        if (piece.line.isClosing() || map.lines.empty() || !sameLine(scene, last, piece.line)) {
+            map.lines.push_back(piece.line.isClosing() ? closingLine(piece.a)
+                                                       : carrierLine(carrierOf(scene, piece.line)));
             last = piece.line;
         }
         const auto line = static_cast<std::uint32_t>(map.lines.size() - 1);

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::uint32_t kBorder = 0xffffffffu;  ///< in the place of a line: the cell's border
 
+/// Two abscissae nearer than this may stand in any order: each carries 5 roundings of at most 2^-49 px, since points lie
+/// within two cells of the origin.
+constexpr double kUnsure = 2 * 5 * 0x1p-49;
+
 /// What the sweep knows of a line at the present slab.
 struct Track {
     double x_top = 0.0, x_bottom = 0.0, x_mid = 0.0;
@@ -35,11 +39,12 @@ struct Profile {
     std::vector<Bound> bounds;
 };
 
-/// A breakpoint of one side of an ordinate, or an end of a horizontal.
+/// Where the owner above or below an ordinate changes, or where a horizontal line or the cell ends.
 struct Break {
+    enum Kind { kAbove, kBelow, kLow, kHigh, kLeftBorder, kRightBorder };
     double x;
-    FinePoint point;
-    int side;  ///< 0 above, 1 below, 2 neither
+    Kind kind;
+    std::uint32_t index;  ///< of the line, or of the horizontal
     Owner after;
 };
 
@@ -80,8 +85,11 @@ struct SlabSweep::State {
     int compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const;
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
     FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
-    void addBreaks(const Profile& profile, int side, std::size_t slab);
-    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first);
+    bool sameProfiles() const;
+    void addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab);
+    FinePoint pointOf(const Break& b, std::size_t slab) const;
+    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first,
+                        std::size_t slab);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
     double rightBorder() const { return (cell.max.x - origin.x) + kBorderRestPx; }
 };
@@ -153,8 +161,6 @@ void SlabSweep::State::locate(std::size_t slab) {
 /// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else
 /// the canonical points, which know nothing of the cell.
 int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const {
-    // x_mid carries 5 roundings of at most 2^-49 px: points lie within two cells of the origin.
-    constexpr double kUnsure = 2 * 5 * 0x1p-49;
     // Double-double points of lines up to 2^21 px long are good to 2^-80 px.
     constexpr double kSame = 0x1p-78;
     const double d = tracks[p].x_mid - tracks[q].x_mid;
@@ -280,58 +286,76 @@ void SlabSweep::State::emitRows(std::size_t slab) {
     }
 }
 
-void SlabSweep::State::addBreaks(const Profile& profile, int side, std::size_t slab) {
+/// Whether two profiles change owners at the same lines: then nothing changes across the ordinate between them.
+bool SlabSweep::State::sameProfiles() const {
+    const auto same = [](const Bound& a, const Bound& b) { return a.line == b.line && a.after == b.after; };
+    return above.first == below.first && std::equal(above.bounds.begin(), above.bounds.end(), below.bounds.begin(),
+                                                    below.bounds.end(), same);
+}
+
+void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab) {
     double reached = leftBorder();
     for (const Bound& b : profile.bounds) {
-        FinePoint p = topPoint(b.line, slab);
-        p.grid.y = leaf.ordinates[slab].grid, p.rest.y = leaf.ordinates[slab].rest;
-        reached = std::clamp(leaf.frame.localX(p), reached, rightBorder());
-        breaks.push_back({reached, p, side, b.after});
+        const bool ended = leaf.lines[b.line].in1 == leaf.keys[slab];
+        const double x = ended ? leaf.frame.localX(leaf.lines[b.line].exit) : tracks[b.line].x_top;
+        reached = std::clamp(x, reached, rightBorder());
+        breaks.push_back({reached, kind, b.line, b.after});
     }
 }
 
-/// Owners may change across an ordinate along horizontal lines only: emits those pieces, and measures what no
-/// horizontal line explains.
+FinePoint SlabSweep::State::pointOf(const Break& b, std::size_t slab) const {
+    switch (b.kind) {
+        case Break::kAbove:
+        case Break::kBelow: return topPoint(b.index, slab);
+        case Break::kLow: return leaf.horizontals[b.index].low;
+        case Break::kHigh: return leaf.horizontals[b.index].high;
+        case Break::kLeftBorder: return finePoint(border(cell.min.x), {});
+        default: return finePoint(border(cell.max.x), {});
+    }
+}
+
+/// Owners change across an ordinate along horizontal lines. Where they change and no line explains it, rounded planes
+/// disagree with each other within a thin slab: a closing piece keeps every owner's boundary closed.
 void SlabSweep::State::emitHorizontals(std::size_t slab) {
     const std::size_t first = next_horizontal;
     const OrderKey key = leaf.keys[slab];
     while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key)
         ++next_horizontal;
-    if (first == next_horizontal && !options->check_closure) return;
+    if (first == next_horizontal && sameProfiles()) return;
     breaks.clear();
-    addBreaks(above, 0, slab);
-    addBreaks(below, 1, slab);
     for (std::size_t h = first; h < next_horizontal; ++h) {
-        breaks.push_back({leaf.horizontals[h].x_low, leaf.horizontals[h].low, 2, kBackground});
-        breaks.push_back({leaf.horizontals[h].x_high, leaf.horizontals[h].high, 2, kBackground});
+        const auto index = static_cast<std::uint32_t>(h);
+        breaks.push_back({leaf.horizontals[h].x_low, Break::kLow, index, kBackground});
+        breaks.push_back({leaf.horizontals[h].x_high, Break::kHigh, index, kBackground});
     }
-    const FineCoordinate y = leaf.ordinates[slab];
-    breaks.push_back({leftBorder(), finePoint({cell.min.x, kBorderRestPx}, y), 2, kBackground});
-    breaks.push_back({rightBorder(), finePoint({cell.max.x, kBorderRestPx}, y), 2, kBackground});
+    addBreaks(above, Break::kAbove, slab);
+    addBreaks(below, Break::kBelow, slab);
+    breaks.push_back({leftBorder(), Break::kLeftBorder, 0, kBackground});
+    breaks.push_back({rightBorder(), Break::kRightBorder, 0, kBackground});
     std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
     Owner over = above.first, under = below.first;
-    for (std::size_t i = 0; i < breaks.size(); ++i) {
-        if (breaks[i].side == 0) over = breaks[i].after;
-        if (breaks[i].side == 1) under = breaks[i].after;
-        if (over != under && i + 1 < breaks.size() && breaks[i].x < breaks[i + 1].x)
-            emitHorizontal(breaks[i], breaks[i + 1], over, under, first);
+    for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
+        if (breaks[i].x != breaks[start].x) start = i;  // the first of equal ones names the point: a line's end, if any
+        if (breaks[i].kind == Break::kAbove) over = breaks[i].after;
+        if (breaks[i].kind == Break::kBelow) under = breaks[i].after;
+        if (over != under && breaks[i].x < breaks[i + 1].x)
+            emitHorizontal(breaks[start], breaks[i + 1], over, under, first, slab);
     }
 }
 
-void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
-                                      std::size_t first) {
+void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first,
+                                      std::size_t slab) {
+    const FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
+    const auto emit = [&](std::uint64_t line_key, LineRef line, FineCoordinate y) {
+        out->segments.push_back({line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});
+    };
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
-        if (line.x_low > from.x || line.x_high < to.x) continue;
-        const auto pointOf = [&](const Break& b) {
-            const FinePoint& p = b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point;
-            return finePoint(xOf(p), line.y);
-        };
-        out->segments.push_back(
-            {lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
-        return;
+        if (line.x_low <= from.x && to.x <= line.x_high) return emit(lineKey(line.carrier), line.carrier.ref, line.y);
     }
-    out->counts.widest_gap_px = std::max(out->counts.widest_gap_px, to.x - from.x);
+    if (to.x - from.x <= kUnsure) return;
+    ++out->counts.closings;
+    emit(closingKey(leaf.ordinates[slab]), LineRef::closing(), leaf.ordinates[slab]);
 }
 
 SlabSweep::SlabSweep() : state_(std::make_unique<State>()) {}

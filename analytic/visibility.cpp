@@ -20,7 +20,7 @@ void VisibilityCounts::add(const VisibilityCounts& other) {
     depth_lines += other.depth_lines;
     exact_depth += other.exact_depth;
     hidden += other.hidden;
-    widest_gap_px = std::max(widest_gap_px, other.widest_gap_px);
+    closings += other.closings;
 }
 
 Window cellWindow(const Window& window) {

@@ -44,7 +44,6 @@ TEST_P(VisibilityTruth, EveryScanlineHasTheRightOwners) {
     witness::ScanVerdict all;
     VisibilityCounts counts;
     VisibilityOptions options;
-    options.check_closure = true;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
         const RandomScene random = makeRandomScene(GetParam(), seed);
         const VisibleMap map =
@@ -60,9 +59,9 @@ TEST_P(VisibilityTruth, EveryScanlineHasTheRightOwners) {
     fmt::print(
         "{}: {} scanlines, {} crossings, worst offset {:.1e} px, wrong {:.1e} px2 ({} broken), {} exact "
         "depth signs, "
-        "{} depth lines, gap {:.1e}\n",
+        "{} depth lines, {} closings\n",
         nameOf(GetParam()), all.scanlines, all.crossings, double(all.worst_offset_px), double(all.wrong_px2),
-        all.broken, counts.exact_depth, counts.depth_lines, counts.widest_gap_px);
+        all.broken, counts.exact_depth, counts.depth_lines, counts.closings);
     EXPECT_GT(all.crossings, 1000u);
 }
 
