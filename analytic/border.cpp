@@ -100,7 +100,8 @@ std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     return fan.front().before;
 }
 
-/// Whether the base point, where `order` is 0, may lie in the cluster. A base owner looked up farther away stands.
+/// Whether the base point, where `order` is 0, may lie in the cluster. A base owner looked up farther away
+/// stands.
 bool holdsBase(const Crossings& c, Cluster cluster, bool circle) {
     constexpr double kLookup = 0x1p-30;
     return std::any_of(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
@@ -110,8 +111,8 @@ bool holdsBase(const Crossings& c, Cluster cluster, bool circle) {
                        });
 }
 
-/// Whether the cluster leaves any label as it was and does not know this one: something touches the border from
-/// outside, behind an edge that touches it too.
+/// Whether the cluster leaves any label as it was and does not know this one: something touches the border
+/// from outside, behind an edge that touches it too.
 bool passesBy(const Crossings& c, Cluster cluster, Owner label) {
     for (std::size_t i = cluster.first; i < cluster.last; ++i) {
         int surplus = 0;
@@ -122,8 +123,9 @@ bool passesBy(const Crossings& c, Cluster cluster, Owner label) {
     return true;
 }
 
-/// The label before the first crossing: the first cluster that changes labels decides. If none does, the whole border
-/// but for their insides has one owner: the base's, unless it lies in a cluster that can be sorted.
+/// The label before the first crossing: the first cluster that changes labels decides. If none does, the
+/// whole border but for their insides has one owner: the base's, unless it lies in a cluster that can be
+/// sorted.
 Owner firstLabel(const Crossings& c, Owner base, bool circle) {
     std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {

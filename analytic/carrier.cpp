@@ -69,8 +69,8 @@ DoubleDouble determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleD
     return ddSub(ddMul(a, d), ddMul(b, c));
 }
 
-/// Cramer's rule in double-double, about the anchor. Of nearly parallel lines it gives a point that may be off along
-/// them: one coordinate is kept, and the first line gives the other.
+/// Cramer's rule in double-double, about the anchor. Of nearly parallel lines it gives a point that may be
+/// off along them: one coordinate is kept, and the first line gives the other.
 bool crossDepths(const Carrier& p, const Carrier& q, FinePoint& point) {
     const DoubleDouble det = determinant(p.A, p.B, q.A, q.B);
     if (det.hi == 0.0) return false;
@@ -157,7 +157,8 @@ std::uint64_t lineKey(const Carrier& line) {
 }
 
 std::uint64_t closingKey(FineCoordinate y) {
-    return mix(mix(3, std::bit_cast<std::uint64_t>(y.grid + 0.0)), std::bit_cast<std::uint64_t>(y.rest + 0.0));
+    return mix(mix(3, std::bit_cast<std::uint64_t>(y.grid + 0.0)),
+               std::bit_cast<std::uint64_t>(y.rest + 0.0));
 }
 
 CarrierLine closingLine(const FinePoint& p) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kBorder = 0xffffffffu;  ///< in the place of a line: the cell's border
 
-/// Two abscissae nearer than this may stand in any order: each carries 5 roundings of at most 2^-49 px, since points lie
-/// within two cells of the origin.
+/// Two abscissae nearer than this may stand in any order: each carries 5 roundings of at most 2^-49 px, since
+/// points lie within two cells of the origin.
 constexpr double kUnsure = 2 * 5 * 0x1p-49;
 
 /// What the sweep knows of a line at the present slab.
@@ -286,11 +286,12 @@ void SlabSweep::State::emitRows(std::size_t slab) {
     }
 }
 
-/// Whether two profiles change owners at the same lines: then nothing changes across the ordinate between them.
+/// Whether two profiles change owners at the same lines: then nothing changes across the ordinate between
+/// them.
 bool SlabSweep::State::sameProfiles() const {
     const auto same = [](const Bound& a, const Bound& b) { return a.line == b.line && a.after == b.after; };
-    return above.first == below.first && std::equal(above.bounds.begin(), above.bounds.end(), below.bounds.begin(),
-                                                    below.bounds.end(), same);
+    return above.first == below.first && std::equal(above.bounds.begin(), above.bounds.end(),
+                                                    below.bounds.begin(), below.bounds.end(), same);
 }
 
 void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab) {
@@ -306,16 +307,22 @@ void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::
 FinePoint SlabSweep::State::pointOf(const Break& b, std::size_t slab) const {
     switch (b.kind) {
         case Break::kAbove:
-        case Break::kBelow: return topPoint(b.index, slab);
-        case Break::kLow: return leaf.horizontals[b.index].low;
-        case Break::kHigh: return leaf.horizontals[b.index].high;
-        case Break::kLeftBorder: return finePoint(border(cell.min.x), {});
-        default: return finePoint(border(cell.max.x), {});
+        case Break::kBelow:
+            return topPoint(b.index, slab);
+        case Break::kLow:
+            return leaf.horizontals[b.index].low;
+        case Break::kHigh:
+            return leaf.horizontals[b.index].high;
+        case Break::kLeftBorder:
+            return finePoint(border(cell.min.x), {});
+        default:
+            return finePoint(border(cell.max.x), {});
     }
 }
 
-/// Owners change across an ordinate along horizontal lines. Where they change and no line explains it, rounded planes
-/// disagree with each other within a thin slab: a closing piece keeps every owner's boundary closed.
+/// Owners change across an ordinate along horizontal lines. Where they change and no line explains it,
+/// rounded planes disagree with each other within a thin slab: a closing piece keeps every owner's boundary
+/// closed.
 void SlabSweep::State::emitHorizontals(std::size_t slab) {
     const std::size_t first = next_horizontal;
     const OrderKey key = leaf.keys[slab];
@@ -335,7 +342,8 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
     Owner over = above.first, under = below.first;
     for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
-        if (breaks[i].x != breaks[start].x) start = i;  // the first of equal ones names the point: a line's end, if any
+        if (breaks[i].x != breaks[start].x)
+            start = i;  // the first of equal ones names the point: a line's end, if any
         if (breaks[i].kind == Break::kAbove) over = breaks[i].after;
         if (breaks[i].kind == Break::kBelow) under = breaks[i].after;
         if (over != under && breaks[i].x < breaks[i + 1].x)
@@ -343,15 +351,17 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     }
 }
 
-void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first,
-                                      std::size_t slab) {
+void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
+                                      std::size_t first, std::size_t slab) {
     const FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
     const auto emit = [&](std::uint64_t line_key, LineRef line, FineCoordinate y) {
-        out->segments.push_back({line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});
+        out->segments.push_back(
+            {line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});
     };
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
-        if (line.x_low <= from.x && to.x <= line.x_high) return emit(lineKey(line.carrier), line.carrier.ref, line.y);
+        if (line.x_low <= from.x && to.x <= line.x_high)
+            return emit(lineKey(line.carrier), line.carrier.ref, line.y);
     }
     if (to.x - from.x <= kUnsure) return;
     ++out->counts.closings;

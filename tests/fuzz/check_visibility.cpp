@@ -33,8 +33,8 @@ std::string checkSegments(const VisibleMap& map) {
     return {};
 }
 
-/// An open boundary shows in the weights of positive kernels: an owner below 0, or labels that do not chain. The
-/// kernels take both ways to the closed form, strips and fans, and supports within the judged window.
+/// An open boundary shows in the weights of positive kernels: an owner below 0, or labels that do not chain.
+/// The kernels take both ways to the closed form, strips and fans, and supports within the judged window.
 std::string checkWeights(const VisibleMap& map) {
     constexpr double kRoundings = 0x1p-40;  // of up to a thousand terms and border shares, with room
     for (const char* name : {"box", "disk", "cone", "gaussian"}) {
