@@ -165,6 +165,25 @@ void sortCrossings(Crossings& c) {
 
 }  // namespace
 
+namespace {
+
+/// What the next cluster expects, or the start of the circle behind the last one.
+std::optional<Owner> labelAfter(const Crossings& c, Cluster cluster, bool circle, Owner start) {
+    if (cluster.last < c.size()) return labelBefore(c, {cluster.last, clusterEnd(c, cluster.last)});
+    return circle ? std::optional(start) : std::nullopt;
+}
+
+/// Segments that meet on the border may end there a rounding apart, one inside and one outside, and then a
+/// crossing is missing. The cluster leads to what comes next, if any of its crossings does.
+Owner mendEnd(Crossings& c, Cluster cluster, Owner label, std::optional<Owner> next) {
+    if (!next || *next == label) return label;
+    for (std::size_t i = cluster.first; i < cluster.last; ++i)
+        if (c[i].after == *next) return c[cluster.last - 1].after = *next;
+    return label;
+}
+
+}  // namespace
+
 int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>& shares) {
     shares.clear();
     if (c.empty()) {
@@ -187,6 +206,8 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
         const std::optional<Owner> expected = labelBefore(c, cluster);
         if (expected && *expected != label) ++conflicts;
         label = chainLabels(c, cluster, expected.value_or(label));
+        if (cluster.last - cluster.first > 1)
+            label = mendEnd(c, cluster, label, labelAfter(c, cluster, circle, start));
     }
     if (circle && label != start) ++conflicts;
     shares.push_back({start, circle ? 0 : c.front().position});

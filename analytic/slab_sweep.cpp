@@ -342,8 +342,10 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
     Owner over = above.first, under = below.first;
     for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
-        if (breaks[i].x != breaks[start].x)
-            start = i;  // the first of equal ones names the point: a line's end, if any
+        // Of equal ones the end of a horizontal names the point, else the line at which the owner changed
+        // last.
+        const bool named = breaks[start].kind == Break::kLow || breaks[start].kind == Break::kHigh;
+        if (breaks[i].x != breaks[start].x || !named) start = i;
         if (breaks[i].kind == Break::kAbove) over = breaks[i].after;
         if (breaks[i].kind == Break::kBelow) under = breaks[i].after;
         if (over != under && breaks[i].x < breaks[i + 1].x)
