@@ -61,9 +61,7 @@ void considerBase(BasePoint& base, bool radial, double R, glm::dvec2 sample, con
     const bool sample_is_left = radial ? sideOfSample(line, sample) > 0 : true;
     const Owner owner = sample_is_left != *inside ? left : right;
     const BasePoint fresh{distance2, cosine, owner};
-    const auto key = [](const BasePoint& p) {
-        return std::make_tuple(p.distance2, -p.cosine, p.owner);
-    };
+    const auto key = [](const BasePoint& p) { return std::make_tuple(p.distance2, -p.cosine, p.owner); };
     if (key(fresh) < key(base)) base = fresh;
 }
 

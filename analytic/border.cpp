@@ -1,6 +1,7 @@
 #include "analytic/border.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -16,13 +17,18 @@ struct Cluster {
     std::size_t first, last;
 };
 
-bool near(const BorderCrossing& a, const BorderCrossing& b) {
-    return b.order - a.order <= a.doubt + b.doubt;
+/// Fills `reaches_back`: how far down this crossing or a later one may lie.
+void noteDoubts(Crossings& c) {
+    double low = HUGE_VAL;
+    for (auto x = c.rbegin(); x != c.rend(); ++x) x->reaches_back = low = std::min(low, x->order - x->doubt);
 }
 
+/// A cluster ends where no crossing before may lie behind any crossing after.
 std::size_t clusterEnd(const Crossings& c, std::size_t first) {
+    double reach = c[first].order + c[first].doubt;
     std::size_t last = first + 1;
-    while (last < c.size() && near(c[last - 1], c[last])) ++last;
+    for (; last < c.size() && c[last].reaches_back <= reach; ++last)
+        reach = std::max(reach, c[last].order + c[last].doubt);
     return last;
 }
 
@@ -86,9 +92,7 @@ Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
 std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     Crossings fan(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
                   c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
-    const auto key = [](const BorderCrossing& x) {
-        return std::tie(x.spread, x.order, x.before, x.after);
-    };
+    const auto key = [](const BorderCrossing& x) { return std::tie(x.spread, x.order, x.before, x.after); };
     std::sort(fan.begin(), fan.end(),
               [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
     for (std::size_t i = 0; i + 1 < fan.size(); ++i)
@@ -96,14 +100,38 @@ std::optional<Owner> labelAroundVertex(const Crossings& c, Cluster cluster) {
     return fan.front().before;
 }
 
-/// The label before the first crossing: the first cluster that changes labels decides, else the first that
-/// can be sorted.
-Owner firstLabel(const Crossings& c, Owner base) {
+/// Whether the base point, where `order` is 0, may lie in the cluster. A base owner looked up farther away
+/// stands.
+bool holdsBase(const Crossings& c, Cluster cluster, bool circle) {
+    constexpr double kLookup = 0x1p-30;
+    return std::any_of(c.begin() + static_cast<std::ptrdiff_t>(cluster.first),
+                       c.begin() + static_cast<std::ptrdiff_t>(cluster.last), [=](const BorderCrossing& x) {
+                           const double order = circle ? std::remainder(x.order, 1.0) : x.order;
+                           return std::abs(order) <= kLookup + x.doubt;
+                       });
+}
+
+/// Whether the cluster leaves any label as it was and does not know this one: something touches the border
+/// from outside, behind an edge that touches it too.
+bool passesBy(const Crossings& c, Cluster cluster, Owner label) {
+    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
+        int surplus = 0;
+        for (std::size_t j = cluster.first; j < cluster.last; ++j)
+            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
+        if (surplus != 0 || c[i].before == label) return false;
+    }
+    return true;
+}
+
+/// The label before the first crossing: the first cluster that changes labels decides. If none does, the
+/// whole border but for their insides has one owner: the base's, unless it lies in a cluster that can be
+/// sorted.
+Owner firstLabel(const Crossings& c, Owner base, bool circle) {
     std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
         if (const std::optional<Owner> label = labelBefore(c, cluster)) return *label;
-        if (!touching) touching = labelAroundVertex(c, cluster);
+        if (!touching && holdsBase(c, cluster, circle)) touching = labelAroundVertex(c, cluster);
         first = cluster.last;
     }
     return touching.value_or(base);
@@ -145,15 +173,20 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     }
     sortCrossings(c);
     if (circle) cutInLongestGap(c);
-    const Owner start = firstLabel(c, base);
+    noteDoubts(c);
+    const Owner start = firstLabel(c, base, circle);
     Owner label = start;
     int conflicts = 0;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first)};
+        first = cluster.last;
+        if (passesBy(c, cluster, label)) {
+            for (std::size_t i = cluster.first; i < cluster.last; ++i) c[i].before = c[i].after = label;
+            continue;
+        }
         const std::optional<Owner> expected = labelBefore(c, cluster);
         if (expected && *expected != label) ++conflicts;
         label = chainLabels(c, cluster, expected.value_or(label));
-        first = cluster.last;
     }
     if (circle && label != start) ++conflicts;
     shares.push_back({start, circle ? 0 : c.front().position});

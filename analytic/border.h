@@ -18,6 +18,7 @@ struct BorderCrossing {
     double doubt;
     double spread;
     Owner before, after;
+    double reaches_back = 0.0;  ///< scratch of shareBorder
 };
 
 /// A stretch of the border.

@@ -17,11 +17,14 @@ using f64::ddSub;
 using f64::twoSum;
 __extension__ typedef __int128 Int128;
 
-std::int64_t gridSteps(double px) { return static_cast<std::int64_t>(px * 0x1p32); }
+std::int64_t gridSteps(double px) {
+    return static_cast<std::int64_t>(px * 0x1p32);
+}
 
 /// cross(u, v) of grid vectors in units of 2^-64 px^2, exact: |u|, |v| < 2^22 px.
 Int128 crossExact(glm::dvec2 u, glm::dvec2 v) {
-    return static_cast<Int128>(gridSteps(u.x)) * gridSteps(v.y) - static_cast<Int128>(gridSteps(u.y)) * gridSteps(v.x);
+    return static_cast<Int128>(gridSteps(u.x)) * gridSteps(v.y) -
+           static_cast<Int128>(gridSteps(u.y)) * gridSteps(v.x);
 }
 
 DoubleDouble toDoubleDouble(Int128 n) {
@@ -35,7 +38,8 @@ bool edgeBefore(const Carrier& p, const Carrier& q) {
 
 FinePoint pointOnEdge(const Carrier& edge, DoubleDouble t) {
     const glm::dvec2 e = edge.b - edge.a;
-    return finePoint(fineCoordinate(edge.a.x, ddMulReal(t, e.x)), fineCoordinate(edge.a.y, ddMulReal(t, e.y)));
+    return finePoint(fineCoordinate(edge.a.x, ddMulReal(t, e.x)),
+                     fineCoordinate(edge.a.y, ddMulReal(t, e.y)));
 }
 
 /// p.a + (N / D) e: exact signs decide whether, exact integers decide where.
@@ -65,14 +69,16 @@ DoubleDouble determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleD
     return ddSub(ddMul(a, d), ddMul(b, c));
 }
 
-/// Cramer's rule in double-double, about the anchor.
+/// Cramer's rule in double-double, about the anchor. Of nearly parallel lines it gives a point that may be
+/// off along them: one coordinate is kept, and the first line gives the other.
 bool crossDepths(const Carrier& p, const Carrier& q, FinePoint& point) {
     const DoubleDouble det = determinant(p.A, p.B, q.A, q.B);
     if (det.hi == 0.0) return false;
     const DoubleDouble x = ddDiv(determinant(p.B, p.C, q.B, q.C), det);
     const DoubleDouble y = ddDiv(determinant(p.C, p.A, q.C, q.A), det);
     if (!(std::abs(x.hi) < kGuardBandPx && std::abs(y.hi) < kGuardBandPx)) return false;
-    point = finePoint(fineCoordinate(p.anchor.x, x), fineCoordinate(p.anchor.y, y));
+    const bool steep = std::abs(p.A.hi) >= std::abs(p.B.hi);
+    point = steep ? pointAtY(p, fineCoordinate(p.anchor.y, y)) : pointAtX(p, fineCoordinate(p.anchor.x, x));
     return true;
 }
 
@@ -148,6 +154,20 @@ std::uint64_t lineKey(const Carrier& line) {
     h = mix(h, std::bit_cast<std::uint64_t>(line.a.x + 0.0));
     h = mix(h, std::bit_cast<std::uint64_t>(line.b.y + 0.0));
     return mix(h, std::bit_cast<std::uint64_t>(line.b.x + 0.0));
+}
+
+std::uint64_t closingKey(FineCoordinate y) {
+    return mix(mix(3, std::bit_cast<std::uint64_t>(y.grid + 0.0)),
+               std::bit_cast<std::uint64_t>(y.rest + 0.0));
+}
+
+CarrierLine closingLine(const FinePoint& p) {
+    CarrierLine out;
+    out.origin = p.grid;
+    out.ny_hi = -1.0;
+    out.c_hi = p.rest.y;
+    out.direction = {-1.0, 0.0};
+    return out;
 }
 
 CarrierLine carrierLine(const Carrier& line) {

@@ -1,5 +1,6 @@
 // The lines that carry visible segments: edges of triangles, and lines where two depth planes are equal.
-// Everything here is canonical: the same two lines give the same bits from every cell, thread and whole-pixel offset.
+// Everything here is canonical: the same two lines give the same bits from every cell, thread and whole-pixel
+// offset.
 #pragma once
 
 #include <compare>
@@ -16,7 +17,10 @@ struct LineRef {
 
     static LineRef edge(std::uint32_t triangle, std::uint32_t k) { return {triangle, kFirstEdge + k}; }
     static LineRef depth(std::uint32_t p, std::uint32_t q) { return p < q ? LineRef{p, q} : LineRef{q, p}; }
+    /// A horizontal that no line of the scene carries: see SlabSweep.
+    static LineRef closing() { return {0xffffffffu, kFirstEdge - 1}; }
     bool isEdge() const { return j >= kFirstEdge; }
+    bool isClosing() const { return *this == closing(); }
     auto operator<=>(const LineRef&) const = default;
 };
 
@@ -41,19 +45,26 @@ Carrier depthCarrier(const ScreenScene& scene, LineRef ref);
 FinePoint pointAtY(const Carrier& line, FineCoordinate y);
 FinePoint pointAtX(const Carrier& line, FineCoordinate x);
 
-/// True where the carriers cross properly (for edges: inside both), with the point. Parallel lines do not cross.
+/// True where the carriers cross properly (for edges: inside both), with the point. Parallel lines do not
+/// cross.
 bool crossing(const Carrier& p, const Carrier& q, FinePoint& point);
 
 /// Whether a line of equal depth passes within 2^-40 px of a point.
 bool passesNear(const Carrier& depth_line, glm::dvec2 p);
 
 /// Whether two edges run between the same points.
-inline bool sameEdge(const Carrier& p, const Carrier& q) { return p.a == q.a && p.b == q.b; }
+inline bool sameEdge(const Carrier& p, const Carrier& q) {
+    return p.a == q.a && p.b == q.b;
+}
 
 /// For sorting: equal for the same line wherever it was met.
 std::uint64_t lineKey(const Carrier& line);
 
 /// The line as the weights need it.
 CarrierLine carrierLine(const Carrier& line);
+
+/// The same for a closing horizontal through a point.
+std::uint64_t closingKey(FineCoordinate y);
+CarrierLine closingLine(const FinePoint& p);
 
 }  // namespace edgewise

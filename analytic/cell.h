@@ -8,8 +8,8 @@
 
 namespace edgewise {
 
-/// Cell borders lie this far right of and below their grid position: no vertex, no axis-parallel edge and no sample
-/// row ever lies on one.
+/// Cell borders lie this far right of and below their grid position: no vertex, no axis-parallel edge and no
+/// sample row ever lies on one.
 inline constexpr double kBorderRestPx = 0x1p-34;
 
 /// x0 < x <= x1, y0 < y <= y1 on the grid; the true borders are kBorderRestPx further.
@@ -34,24 +34,24 @@ struct RowPiece {
 
 /// How much work visibility did, and how often its exact parts fired.
 struct VisibilityCounts {
-    std::uint64_t cells = 0;             ///< leaves that were swept
-    std::uint64_t certified = 0;         ///< cells that one sheet covers
+    std::uint64_t cells = 0;      ///< leaves that were swept
+    std::uint64_t certified = 0;  ///< cells that one sheet covers
     std::uint64_t slabs = 0;
-    std::uint64_t depth_lines = 0;       ///< pairs of planes that change order inside a leaf
-    std::uint64_t exact_depth = 0;       ///< depth comparisons that the filter left to exact arithmetic
-    std::uint64_t hidden = 0;            ///< (cell, triangle) pairs dropped behind a covering triangle
-    double widest_gap_px = 0.0;          ///< of `check_closure`: widest change of owner that no line explains
+    std::uint64_t depth_lines = 0;  ///< pairs of planes that change order inside a leaf
+    std::uint64_t exact_depth = 0;  ///< depth comparisons that the filter left to exact arithmetic
+    std::uint64_t hidden = 0;       ///< (cell, triangle) pairs dropped behind a covering triangle
+    std::uint64_t closings = 0;     ///< pieces that close what rounded planes left open in a thin slab
 
     void add(const VisibilityCounts& other);
 };
 
 struct VisibilityOptions {
-    int max_triangles = 12;        ///< a cell with more is split
-    double min_cell_px = 0.0625;   ///< but not below this
-    bool occlusion = true;         ///< drop what one covering triangle hides
-    bool certify = true;           ///< a cell that one sheet of triangles covers needs no sweep
-    bool every_depth_line = false; ///< of all pairs that meet in the cell, not only those that change order in it
-    bool check_closure = false;    ///< measure widest_gap_px: the fuzzer's question
+    int max_triangles = 12;       ///< a cell with more is split
+    double min_cell_px = 0.0625;  ///< but not below this
+    bool occlusion = true;        ///< drop what one covering triangle hides
+    bool certify = true;          ///< a cell that one sheet of triangles covers needs no sweep
+    bool every_depth_line =
+        false;  ///< of all pairs that meet in the cell, not only those that change order in it
 };
 
 /// Everything visibility emits, appended cell by cell.

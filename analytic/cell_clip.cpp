@@ -74,7 +74,7 @@ bool clipEdge(const CellFrame& frame, LeafLine& line) {
     if (from != 0) clip.entering(from);
     if (to != 0) clip.leaving(to);
     if (!line.runsInside()) return line.side_before < 0 || line.side_after < 0;
-    clip.finish(ka < frame.top, kb > frame.bottom);
+    clip.finish(ka<frame.top, kb> frame.bottom);
     return true;
 }
 
@@ -98,7 +98,8 @@ bool clipDepthLine(const CellFrame& frame, LeafLine& line) {
 
 bool clipHorizontalEdge(const CellFrame& frame, const Carrier& edge, LeafHorizontal& out) {
     const Cell& cell = frame.cell;
-    if (edge.a.y <= cell.min.y || edge.a.y > cell.max.y || edge.a.x <= cell.min.x || edge.b.x > cell.max.x) return false;
+    if (edge.a.y <= cell.min.y || edge.a.y > cell.max.y || edge.a.x <= cell.min.x || edge.b.x > cell.max.x)
+        return false;
     const FineCoordinate y{edge.a.y, 0.0};
     const FinePoint low = edge.b.x <= cell.min.x ? finePoint(border(cell.min.x), y) : gridPoint(edge.b);
     const FinePoint high = edge.a.x > cell.max.x ? finePoint(border(cell.max.x), y) : gridPoint(edge.a);

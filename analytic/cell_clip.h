@@ -11,7 +11,7 @@ namespace edgewise {
 /// A cell and the frame of its arithmetic.
 struct CellFrame {
     Cell cell;
-    glm::dvec2 origin{0.0};       ///< a grid point near the cell
+    glm::dvec2 origin{0.0};        ///< a grid point near the cell
     OrderKey top = 0, bottom = 0;  ///< of its borders
 
     CellFrame() = default;
@@ -25,10 +25,13 @@ struct CellFrame {
 };
 
 /// The border at a grid coordinate of a cell's corner.
-inline FineCoordinate border(double grid) { return {grid, kBorderRestPx}; }
+inline FineCoordinate border(double grid) {
+    return {grid, kBorderRestPx};
+}
 
-/// A line that is not horizontal. Between the ordinates in0 and in1 it runs inside the cell, from `enter` to `exit`;
-/// between y0 and in0 it runs beside it on side_before, between in1 and y1 on side_after (-1 left, +1 right).
+/// A line that is not horizontal. Between the ordinates in0 and in1 it runs inside the cell, from `enter` to
+/// `exit`; between y0 and in0 it runs beside it on side_before, between in1 and y1 on side_after (-1 left, +1
+/// right).
 struct LeafLine {
     Carrier carrier;
     OrderKey y0, y1, in0, in1;
@@ -36,12 +39,14 @@ struct LeafLine {
     FinePoint enter, exit;
     double slope = 0.0;                ///< dx/dy
     double x_low = 0.0, x_high = 0.0;  ///< from the cell's origin, over the part inside
-    /// Vertices that both planes of a line of equal depth pass through: the line does too, whatever rounding says.
+    /// Vertices that both planes of a line of equal depth pass through: the line does too, whatever rounding
+    /// says.
     std::array<glm::dvec2, 3> through{};
     std::size_t through_count = 0;
 
     bool passesThrough(glm::dvec2 p) const {
-        return std::find(through.begin(), through.begin() + through_count, p) != through.begin() + through_count;
+        return std::find(through.begin(), through.begin() + through_count, p) !=
+               through.begin() + through_count;
     }
     bool runsInside() const { return in0 < in1; }
     /// Abscissa at an ordinate between in0 and in1, from the frame's origin.
@@ -60,7 +65,8 @@ struct LeafHorizontal {
     double x_low, x_high;
 };
 
-/// line.carrier, an edge that is not horizontal, clipped. False where it neither runs inside nor left of the cell.
+/// line.carrier, an edge that is not horizontal, clipped. False where it neither runs inside nor left of the
+/// cell.
 bool clipEdge(const CellFrame& frame, LeafLine& line);
 
 /// line.carrier, a line of equal depth that is not horizontal, clipped. False where it does not run inside.

@@ -53,8 +53,9 @@ Overlap overlap(const ScreenTriangle& t, const Cell& cell) {
     return {true, covers};
 }
 
-void CellVisibility::run(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> candidates,
-                         const VisibilityOptions& options, CellOutput& out) {
+void CellVisibility::run(const ScreenScene& scene, const Cell& cell,
+                         std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
+                         CellOutput& out) {
     stack_.assign(candidates.begin(), candidates.end());
     visit(scene, cell, cell.min, 0, stack_.size(), options, out);
 }

@@ -12,13 +12,14 @@ namespace edgewise {
 
 class CellVisibility {
   public:
-    /// Appends the visible pieces and row owners of `cell` to `out`. `candidates` holds every triangle that meets it.
+    /// Appends the visible pieces and row owners of `cell` to `out`. `candidates` holds every triangle that
+    /// meets it.
     void run(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> candidates,
              const VisibilityOptions& options, CellOutput& out);
 
   private:
-    void visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin, std::size_t end,
-               const VisibilityOptions& options, CellOutput& out);
+    void visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
+               std::size_t end, const VisibilityOptions& options, CellOutput& out);
 
     std::vector<std::uint32_t> stack_;  ///< candidate lists of the open cells, one behind the other
     SheetCertificate certificate_;

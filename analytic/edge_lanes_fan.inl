@@ -118,12 +118,14 @@ EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first,
         return;
     }
     Piece piece;
-    piece.t1 = in_a > 0.5 ? line.t_a : -c;
-    piece.t2 = in_b > 0.5 ? line.t_b : c;
+    // An end that counts as inside may lie past the rounded chord: the crossing is not before it. [E12]
+    const real entry = in_b > 0.5 ? smaller(-c, line.t_b) : -c, exit = in_a > 0.5 ? larger(c, line.t_a) : c;
+    piece.t1 = in_a > 0.5 ? line.t_a : entry;
+    piece.t2 = in_b > 0.5 ? line.t_b : exit;
     piece.length = in_a + in_b > 1.5 ? line.length : larger(piece.t2 - piece.t1, none);
     piece.length = touched ? piece.length : none;
     const real value = flushTiny(fanTerm(kernel, line.h, piece));
     store(toFixed(touched ? value : none), first, terms.value);
-    circleCrossing(kernel, line, -c, in_a, in_b, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
-    circleCrossing(kernel, line, c, in_a, in_b, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
+    circleCrossing(kernel, line, entry, in_a, in_b, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
+    circleCrossing(kernel, line, exit, in_a, in_b, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
 }

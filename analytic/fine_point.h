@@ -1,4 +1,5 @@
-// Points finer than double: a point of the grid plus a rest, so that whole pixels can be added without a rounding.
+// Points finer than double: a point of the grid plus a rest, so that whole pixels can be added without a
+// rounding.
 #pragma once
 
 #include <cmath>
@@ -24,10 +25,13 @@ inline FineCoordinate fineCoordinate(double origin, DoubleDouble offset) {
 }
 
 /// p - origin in double-double, exact but for the last bits of the rest; origin on the grid.
-inline DoubleDouble offsetFrom(FineCoordinate p, double origin) { return f64::twoSum(p.grid - origin, p.rest); }
+inline DoubleDouble offsetFrom(FineCoordinate p, double origin) {
+    return f64::twoSum(p.grid - origin, p.rest);
+}
 
-/// Orders ordinates inside a cell: units of 2^-76 px above the grid ordinate `origin`. Ordinates that differ by less
-/// are one event of the sweep. Even along the flattest edge of the grid (2^-32 px over 2^11 px) that is 2^-33 px.
+/// Orders ordinates inside a cell: units of 2^-76 px above the grid ordinate `origin`. Ordinates that differ
+/// by less are one event of the sweep. Even along the flattest edge of the grid (2^-32 px over 2^11 px) that
+/// is 2^-33 px.
 __extension__ typedef __int128 OrderKey;
 inline OrderKey orderKey(FineCoordinate p, double origin) {
     const auto steps = static_cast<std::int64_t>((p.grid - origin) * 0x1p32);
@@ -35,10 +39,18 @@ inline OrderKey orderKey(FineCoordinate p, double origin) {
     return (static_cast<OrderKey>(steps) << 44) + rest;
 }
 
-inline FineCoordinate xOf(const FinePoint& p) { return {p.grid.x, p.rest.x}; }
-inline FineCoordinate yOf(const FinePoint& p) { return {p.grid.y, p.rest.y}; }
-inline FinePoint finePoint(FineCoordinate x, FineCoordinate y) { return {{x.grid, y.grid}, {x.rest, y.rest}}; }
-inline FinePoint gridPoint(glm::dvec2 p) { return {p, {0.0, 0.0}}; }
+inline FineCoordinate xOf(const FinePoint& p) {
+    return {p.grid.x, p.rest.x};
+}
+inline FineCoordinate yOf(const FinePoint& p) {
+    return {p.grid.y, p.rest.y};
+}
+inline FinePoint finePoint(FineCoordinate x, FineCoordinate y) {
+    return {{x.grid, y.grid}, {x.rest, y.rest}};
+}
+inline FinePoint gridPoint(glm::dvec2 p) {
+    return {p, {0.0, 0.0}};
+}
 
 /// |b - a| px, from exact grid differences.
 inline double distance(const FinePoint& a, const FinePoint& b) {

@@ -5,24 +5,27 @@
 namespace edgewise {
 namespace {
 
-/// A vertex that both triangles share lies in both planes, as far as rounded planes can say so: those of nearly
-/// coplanar triangles may be equal elsewhere, and then the planes decide, not the vertex.
-bool sharesVertex(const ScreenTriangle& t, std::size_t k, const ScreenTriangle& other, const Carrier& depth_line) {
-    const bool shared = std::find(other.vertex.begin(), other.vertex.end(), t.vertex[k]) != other.vertex.end();
+/// A vertex that both triangles share lies in both planes, as far as rounded planes can say so: those of
+/// nearly coplanar triangles may be equal elsewhere, and then the planes decide, not the vertex.
+bool sharesVertex(const ScreenTriangle& t, std::size_t k, const ScreenTriangle& other,
+                  const Carrier& depth_line) {
+    const bool shared =
+        std::find(other.vertex.begin(), other.vertex.end(), t.vertex[k]) != other.vertex.end();
     return shared && passesNear(depth_line, t.p_px[k]);
 }
 
-/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A shared
-/// vertex says nothing.
-int signsAtVertices(const ScreenTriangle& t, const ScreenTriangle& other, const LocalPlane& p, const LocalPlane& q,
-                    const Carrier& depth_line, glm::dvec2 origin) {
+/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A
+/// shared vertex says nothing.
+int signsAtVertices(const ScreenTriangle& t, const ScreenTriangle& other, const LocalPlane& p,
+                    const LocalPlane& q, const Carrier& depth_line, glm::dvec2 origin) {
     int signs = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         if (sharesVertex(t, k, other, depth_line)) continue;
         const glm::dvec2 v = t.p_px[k] - origin;
         const double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
         // Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
-        const double far = (std::abs(p.a) + std::abs(q.a)) * std::abs(v.x) + (std::abs(p.b) + std::abs(q.b)) * std::abs(v.y);
+        const double far =
+            (std::abs(p.a) + std::abs(q.a)) * std::abs(v.x) + (std::abs(p.b) + std::abs(q.b)) * std::abs(v.y);
         const double error = p.error + q.error + 8.0 * 0x1p-53 * far;
         if (d > -error) signs |= 1;
         if (d < error) signs |= 2;
@@ -79,7 +82,8 @@ bool meetInVertex(const LeafLine& p, const LeafLine& q) {
 /// The vertices that two triangles share lie on the line where their planes are equal.
 void noteSharedVertices(const ScreenTriangle& s, const ScreenTriangle& t, LeafLine& line) {
     for (std::size_t k = 0; k < 3; ++k) {
-        if (sharesVertex(s, k, t, line.carrier) && !line.passesThrough(s.p_px[k]) && line.through_count < line.through.size())
+        if (sharesVertex(s, k, t, line.carrier) && !line.passesThrough(s.p_px[k]) &&
+            line.through_count < line.through.size())
             line.through[line.through_count++] = s.p_px[k];
     }
 }
@@ -102,7 +106,8 @@ void LeafLines::collect(const ScreenScene& scene, const Cell& cell, glm::dvec2 o
     sortKeys();
 }
 
-void LeafLines::addEdge(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t edge, std::size_t bit) {
+void LeafLines::addEdge(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t edge,
+                        std::size_t bit) {
     LeafLine line;
     line.carrier = edgeCarrier(scene, LineRef::edge(triangle, edge));
     const Carrier& c = line.carrier;
@@ -158,7 +163,8 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
-        const FinePoint low = pointAtX(c, border(frame.cell.min.x)), high = pointAtX(c, border(frame.cell.max.x));
+        const FinePoint low = pointAtX(c, border(frame.cell.min.x)),
+                        high = pointAtX(c, border(frame.cell.max.x));
         const OrderKey key = frame.key(yOf(low));
         if (key > frame.top && key < frame.bottom)
             horizontals.push_back({c, key, yOf(low), low, high, frame.localX(low), frame.localX(high)});
@@ -171,7 +177,8 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
 }
 
 void LeafLines::addCrossings() {
-    // Abscissae here carry a few roundings of the cell's size, far below this; the crossing itself is decided exactly.
+    // Abscissae here carry a few roundings of the cell's size, far below this; the crossing itself is decided
+    // exactly.
     constexpr double kPad = kGridPx;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LeafLine& p = lines[i];
@@ -225,7 +232,8 @@ void LeafLines::sortKeys() {
         ordinates.push_back(y);
     }
     keys.push_back(frame.bottom), ordinates.push_back(border(frame.cell.max.y));
-    std::sort(events.begin(), events.end(), [](const LeafEvent& a, const LeafEvent& b) { return a.key < b.key; });
+    std::sort(events.begin(), events.end(),
+              [](const LeafEvent& a, const LeafEvent& b) { return a.key < b.key; });
     std::sort(horizontals.begin(), horizontals.end(),
               [](const LeafHorizontal& a, const LeafHorizontal& b) { return a.key < b.key; });
 }

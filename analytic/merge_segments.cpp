@@ -8,7 +8,8 @@ namespace {
 
 /// Along a line towards its direction: +y, or -x where horizontal.
 bool before(const FinePoint& p, const FinePoint& q) {
-    return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) < std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
+    return std::tuple(p.grid.y, p.rest.y, -p.grid.x, -p.rest.x) <
+           std::tuple(q.grid.y, q.rest.y, -q.grid.x, -q.rest.x);
 }
 
 bool joins(const SegmentPiece& p, const SegmentPiece& q) {
@@ -43,8 +44,9 @@ void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces,
     for (std::size_t i = 0; i < pieces.size();) {
         SegmentPiece piece = pieces[i];
         for (++i; i < pieces.size() && joins(piece, pieces[i]); ++i) piece.b = pieces[i].b;
-        if (map.lines.empty() || !sameLine(scene, last, piece.line)) {
-            map.lines.push_back(carrierLine(carrierOf(scene, piece.line)));
+        if (piece.line.isClosing() || map.lines.empty() || !sameLine(scene, last, piece.line)) {
+            map.lines.push_back(piece.line.isClosing() ? closingLine(piece.a)
+                                                       : carrierLine(carrierOf(scene, piece.line)));
             last = piece.line;
         }
         const auto line = static_cast<std::uint32_t>(map.lines.size() - 1);
@@ -62,7 +64,8 @@ void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, Vis
     map.row_offset.assign(1, 0);
     map.rows.clear();
     for (std::vector<RowOwner>& row : rows) {
-        std::stable_sort(row.begin(), row.end(), [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
+        std::stable_sort(row.begin(), row.end(),
+                         [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
         const std::size_t begin = map.rows.size();
         for (const RowOwner& entry : row) {
             if (map.rows.size() > begin && map.rows.back().owner == entry.owner) continue;

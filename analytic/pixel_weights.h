@@ -1,4 +1,5 @@
-// The closed-form prefilter weights of the owners around samples: visible segments in, one weight an owner out.
+// The closed-form prefilter weights of the owners around samples: visible segments in, one weight an owner
+// out.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,9 @@ struct OwnerWeight {
     FixedWeight weight;
 };
 
-/// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a support (within
-/// 2^-30 px: a border needs all segments of a vertex on it, not some), finish().  The result does not depend on the order of add(), nor on which samples share a call.
+/// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a
+/// support (within 2^-30 px: a border needs all segments of a vertex on it, not some), finish().  The result
+/// does not depend on the order of add(), nor on which samples share a call.
 class PixelWeights {
   public:
     static constexpr int kLanes = 8;
@@ -36,14 +38,16 @@ class PixelWeights {
     /// `left` and `right` replace the segment's owners (the caller may merge owners that shade alike).
     void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
-    /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is asked only when
-    /// nothing crosses that border and no segment comes within 2^-31 px of the point.  Writes sample i's owners in ascending order to out[offset[i]..offset[i + 1]);
-    /// owners of weight exactly 0 are left out; the weights of a sample sum to exactly 2^60.
+    /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is
+    /// asked only when nothing crosses that border and no segment comes within 2^-31 px of the point.  Writes
+    /// sample i's owners in ascending order to out[offset[i]..offset[i + 1]); owners of weight exactly 0 are
+    /// left out; the weights of a sample sum to exactly 2^60.
     void finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset);
 
     /// Terms evaluated since construction: (segment, sample) pairs whose support meets the segment.
     std::uint64_t terms() const;
-    /// Border labels of neighbouring crossings that disagreed by more than rounding explains: 0 on a closed map.
+    /// Border labels of neighbouring crossings that disagreed by more than rounding explains: 0 on a closed
+    /// map.
     std::uint64_t label_conflicts() const;
 
   private:

@@ -45,7 +45,9 @@ bool mayMeet(glm::dvec2 a, glm::dvec2 b, const Cell& cell) {
     return std::abs(middle) <= reach + slack;
 }
 
-bool runsCanonically(glm::dvec2 a, glm::dvec2 b) { return a.y < b.y || (a.y == b.y && a.x > b.x); }
+bool runsCanonically(glm::dvec2 a, glm::dvec2 b) {
+    return a.y < b.y || (a.y == b.y && a.x > b.x);
+}
 
 }  // namespace
 
@@ -69,7 +71,8 @@ bool SheetCertificate::enter(const ScreenScene& scene, std::uint32_t triangle, s
     return true;
 }
 
-bool SheetCertificate::pairEdges(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> triangles) {
+bool SheetCertificate::pairEdges(const ScreenScene& scene, const Cell& cell,
+                                 std::span<const std::uint32_t> triangles) {
     edges_.clear();
     slots_.assign(std::bit_ceil(4 * triangles.size() + 4), 0);
     for (const std::uint32_t i : triangles) {
@@ -95,7 +98,8 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
     LeafLine line;
     line.carrier = carrier;
     if (!clipEdge(frame, line) || !line.runsInside()) return;
-    if (left != right) out.segments.push_back({lineKey(carrier), carrier.ref, left, right, line.enter, line.exit});
+    if (left != right)
+        out.segments.push_back({lineKey(carrier), carrier.ref, left, right, line.enter, line.exit});
     const FineCoordinate first = yOf(line.enter), last = yOf(line.exit);
     for (int row = static_cast<int>(std::floor(first.grid - 0.5)); row + 0.5 <= last.grid; ++row) {
         const FineCoordinate y{row + 0.5, 0.0};
@@ -111,18 +115,24 @@ void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame
     std::sort(crossings_.begin(), crossings_.end(), [](const RowCrossing& a, const RowCrossing& b) {
         return std::tie(a.row, a.x, a.slope) < std::tie(b.row, b.x, b.slope);
     });
-    const double start = frame.cell.min.x + kBorderRestPx, middle = 0.5 * (frame.cell.min.x + frame.cell.max.x);
+    const double start = frame.cell.min.x + kBorderRestPx,
+                 middle = 0.5 * (frame.cell.min.x + frame.cell.max.x);
     auto next = crossings_.begin();
-    for (int row = static_cast<int>(std::floor(frame.cell.min.y - 0.5)); row + 0.5 <= frame.cell.max.y; ++row) {
+    for (int row = static_cast<int>(std::floor(frame.cell.min.y - 0.5)); row + 0.5 <= frame.cell.max.y;
+         ++row) {
         if (!(row + 0.5 > frame.cell.min.y)) continue;
         if (next != crossings_.end() && next->row == row) {
             out.rows.push_back({row, next->before, start});
-            for (; next != crossings_.end() && next->row == row; ++next) out.rows.push_back({row, next->after, next->x});
+            for (; next != crossings_.end() && next->row == row; ++next)
+                out.rows.push_back({row, next->after, next->x});
             continue;
         }
-        const auto inner = [&](std::uint32_t i) { return innerDistance(scene.triangles[i], {middle, row + 0.5}).value; };
-        const auto holder = std::max_element(triangles.begin(), triangles.end(),
-                                             [&](std::uint32_t a, std::uint32_t b) { return inner(a) < inner(b); });
+        const auto inner = [&](std::uint32_t i) {
+            return innerDistance(scene.triangles[i], {middle, row + 0.5}).value;
+        };
+        const auto holder =
+            std::max_element(triangles.begin(), triangles.end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return inner(a) < inner(b); });
         out.rows.push_back({row, scene.triangles[*holder].owner, start});
     }
 }

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::uint32_t kBorder = 0xffffffffu;  ///< in the place of a line: the cell's border
 
+/// Two abscissae nearer than this may stand in any order: each carries 5 roundings of at most 2^-49 px, since
+/// points lie within two cells of the origin.
+constexpr double kUnsure = 2 * 5 * 0x1p-49;
+
 /// What the sweep knows of a line at the present slab.
 struct Track {
     double x_top = 0.0, x_bottom = 0.0, x_mid = 0.0;
@@ -35,11 +39,12 @@ struct Profile {
     std::vector<Bound> bounds;
 };
 
-/// A breakpoint of one side of an ordinate, or an end of a horizontal.
+/// Where the owner above or below an ordinate changes, or where a horizontal line or the cell ends.
 struct Break {
+    enum Kind { kAbove, kBelow, kLow, kHigh, kLeftBorder, kRightBorder };
     double x;
-    FinePoint point;
-    int side;  ///< 0 above, 1 below, 2 neither
+    Kind kind;
+    std::uint32_t index;  ///< of the line, or of the horizontal
     Owner after;
 };
 
@@ -61,7 +66,8 @@ struct SlabSweep::State {
     double y_mid = 0.0;  ///< of the slab, from the origin
     std::size_t next_entry, next_event, next_horizontal;
 
-    void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt, CellOutput& output);
+    void begin(const ScreenScene& s, const Cell& c, glm::dvec2 o, const VisibilityOptions& opt,
+               CellOutput& output);
     void startSlab(std::size_t slab);
     void locate(std::size_t slab);
     void sweep(std::size_t slab);
@@ -70,7 +76,8 @@ struct SlabSweep::State {
     void emitHorizontals(std::size_t slab);
     void closePiece(std::uint32_t line, const FinePoint& end);
     void toggle(std::uint32_t line);
-    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's borders.
+    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's
+    /// borders.
     Owner nearest(std::uint32_t left, std::uint32_t right, std::size_t slab);
     bool exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
                         std::size_t slab);
@@ -78,8 +85,11 @@ struct SlabSweep::State {
     int compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const;
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
     FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
-    void addBreaks(const Profile& profile, int side, std::size_t slab);
-    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first);
+    bool sameProfiles() const;
+    void addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab);
+    FinePoint pointOf(const Break& b, std::size_t slab) const;
+    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first,
+                        std::size_t slab);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
     double rightBorder() const { return (cell.max.x - origin.x) + kBorderRestPx; }
 };
@@ -136,7 +146,8 @@ void SlabSweep::State::locate(std::size_t slab) {
         Track& t = tracks[i];
         const LeafLine& line = leaf.lines[i];
         if (line.in1 == key) t.bottom = line.exit, t.bottom_known = true;
-        t.x_bottom = t.bottom_known ? leaf.frame.localX(t.bottom) : line.xAt(leaf.frame, leaf.ordinates[slab + 1]);
+        t.x_bottom =
+            t.bottom_known ? leaf.frame.localX(t.bottom) : line.xAt(leaf.frame, leaf.ordinates[slab + 1]);
         t.x_mid = 0.5 * (t.x_top + t.x_bottom);
     }
     for (std::size_t i = 1; i < order.size(); ++i) {  // nearly sorted: the slab above was
@@ -147,18 +158,17 @@ void SlabSweep::State::locate(std::size_t slab) {
     }
 }
 
-/// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else the
-/// canonical points, which know nothing of the cell.
+/// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else
+/// the canonical points, which know nothing of the cell.
 int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const {
-    // x_mid carries 5 roundings of at most 2^-49 px: points lie within two cells of the origin.
-    constexpr double kUnsure = 2 * 5 * 0x1p-49;
     // Double-double points of lines up to 2^21 px long are good to 2^-80 px.
     constexpr double kSame = 0x1p-78;
     const double d = tracks[p].x_mid - tracks[q].x_mid;
     if (std::abs(d) > kUnsure) return d > 0.0 ? 1 : -1;
     const FineCoordinate p0 = xOf(topPoint(p, slab)), q0 = xOf(topPoint(q, slab));
     const FineCoordinate p1 = xOf(bottomPoint(p, slab)), q1 = xOf(bottomPoint(q, slab));
-    const double fine = ((p0.grid - q0.grid) + (p1.grid - q1.grid)) + ((p0.rest - q0.rest) + (p1.rest - q1.rest));
+    const double fine =
+        ((p0.grid - q0.grid) + (p1.grid - q1.grid)) + ((p0.rest - q0.rest) + (p1.rest - q1.rest));
     return std::abs(fine) <= kSame ? 0 : fine > 0.0 ? 1 : -1;
 }
 
@@ -181,14 +191,14 @@ f64::dd SlabSweep::State::exactMiddle(std::uint32_t line, double border_grid, st
 }
 
 /// Decided at the canonical middle, which knows nothing of the cell's frame.
-bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
-                                      std::size_t slab) {
+bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left,
+                                      std::uint32_t right, std::size_t slab) {
     ++out->counts.exact_depth;
     const f64::dd x = f64::ddAdd(exactMiddle(left, cell.min.x, slab), exactMiddle(right, cell.max.x, slab));
     const f64::dd y = f64::ddAdd(offsetFrom(leaf.ordinates[slab], scene->anchor_px.y),
                                  offsetFrom(leaf.ordinates[slab + 1], scene->anchor_px.y));
-    const int sign = depthDifferenceSign(scene->planes[p.plane], scene->planes[q.plane], {0.5 * x.hi, 0.5 * x.lo},
-                                         {0.5 * y.hi, 0.5 * y.lo});
+    const int sign = depthDifferenceSign(scene->planes[p.plane], scene->planes[q.plane],
+                                         {0.5 * x.hi, 0.5 * x.lo}, {0.5 * y.hi, 0.5 * y.lo});
     return sign != 0 ? sign > 0 : p.owner < q.owner;
 }
 
@@ -276,62 +286,94 @@ void SlabSweep::State::emitRows(std::size_t slab) {
     }
 }
 
-void SlabSweep::State::addBreaks(const Profile& profile, int side, std::size_t slab) {
+/// Whether two profiles change owners at the same lines: then nothing changes across the ordinate between
+/// them.
+bool SlabSweep::State::sameProfiles() const {
+    const auto same = [](const Bound& a, const Bound& b) { return a.line == b.line && a.after == b.after; };
+    return above.first == below.first && std::equal(above.bounds.begin(), above.bounds.end(),
+                                                    below.bounds.begin(), below.bounds.end(), same);
+}
+
+void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab) {
     double reached = leftBorder();
     for (const Bound& b : profile.bounds) {
-        FinePoint p = topPoint(b.line, slab);
-        p.grid.y = leaf.ordinates[slab].grid, p.rest.y = leaf.ordinates[slab].rest;
-        reached = std::clamp(leaf.frame.localX(p), reached, rightBorder());
-        breaks.push_back({reached, p, side, b.after});
+        const bool ended = leaf.lines[b.line].in1 == leaf.keys[slab];
+        const double x = ended ? leaf.frame.localX(leaf.lines[b.line].exit) : tracks[b.line].x_top;
+        reached = std::clamp(x, reached, rightBorder());
+        breaks.push_back({reached, kind, b.line, b.after});
     }
 }
 
-/// Owners may change across an ordinate along horizontal lines only: emits those pieces, and measures what no
-/// horizontal line explains.
+FinePoint SlabSweep::State::pointOf(const Break& b, std::size_t slab) const {
+    switch (b.kind) {
+        case Break::kAbove:
+        case Break::kBelow:
+            return topPoint(b.index, slab);
+        case Break::kLow:
+            return leaf.horizontals[b.index].low;
+        case Break::kHigh:
+            return leaf.horizontals[b.index].high;
+        case Break::kLeftBorder:
+            return finePoint(border(cell.min.x), {});
+        default:
+            return finePoint(border(cell.max.x), {});
+    }
+}
+
+/// Owners change across an ordinate along horizontal lines. Where they change and no line explains it,
+/// rounded planes disagree with each other within a thin slab: a closing piece keeps every owner's boundary
+/// closed.
 void SlabSweep::State::emitHorizontals(std::size_t slab) {
     const std::size_t first = next_horizontal;
     const OrderKey key = leaf.keys[slab];
-    while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key) ++next_horizontal;
-    if (first == next_horizontal && !options->check_closure) return;
+    while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key)
+        ++next_horizontal;
+    if (first == next_horizontal && sameProfiles()) return;
     breaks.clear();
-    addBreaks(above, 0, slab);
-    addBreaks(below, 1, slab);
     for (std::size_t h = first; h < next_horizontal; ++h) {
-        breaks.push_back({leaf.horizontals[h].x_low, leaf.horizontals[h].low, 2, kBackground});
-        breaks.push_back({leaf.horizontals[h].x_high, leaf.horizontals[h].high, 2, kBackground});
+        const auto index = static_cast<std::uint32_t>(h);
+        breaks.push_back({leaf.horizontals[h].x_low, Break::kLow, index, kBackground});
+        breaks.push_back({leaf.horizontals[h].x_high, Break::kHigh, index, kBackground});
     }
-    const FineCoordinate y = leaf.ordinates[slab];
-    breaks.push_back({leftBorder(), finePoint({cell.min.x, kBorderRestPx}, y), 2, kBackground});
-    breaks.push_back({rightBorder(), finePoint({cell.max.x, kBorderRestPx}, y), 2, kBackground});
+    addBreaks(above, Break::kAbove, slab);
+    addBreaks(below, Break::kBelow, slab);
+    breaks.push_back({leftBorder(), Break::kLeftBorder, 0, kBackground});
+    breaks.push_back({rightBorder(), Break::kRightBorder, 0, kBackground});
     std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
     Owner over = above.first, under = below.first;
-    for (std::size_t i = 0; i < breaks.size(); ++i) {
-        if (breaks[i].side == 0) over = breaks[i].after;
-        if (breaks[i].side == 1) under = breaks[i].after;
-        if (over != under && i + 1 < breaks.size() && breaks[i].x < breaks[i + 1].x)
-            emitHorizontal(breaks[i], breaks[i + 1], over, under, first);
+    for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
+        if (breaks[i].x != breaks[start].x)
+            start = i;  // the first of equal ones names the point: a line's end, if any
+        if (breaks[i].kind == Break::kAbove) over = breaks[i].after;
+        if (breaks[i].kind == Break::kBelow) under = breaks[i].after;
+        if (over != under && breaks[i].x < breaks[i + 1].x)
+            emitHorizontal(breaks[start], breaks[i + 1], over, under, first, slab);
     }
 }
 
-void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first) {
+void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
+                                      std::size_t first, std::size_t slab) {
+    const FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
+    const auto emit = [&](std::uint64_t line_key, LineRef line, FineCoordinate y) {
+        out->segments.push_back(
+            {line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});
+    };
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
-        if (line.x_low > from.x || line.x_high < to.x) continue;
-        const auto pointOf = [&](const Break& b) {
-            const FinePoint& p = b.x == line.x_low ? line.low : b.x == line.x_high ? line.high : b.point;
-            return finePoint(xOf(p), line.y);
-        };
-        out->segments.push_back({lineKey(line.carrier), line.carrier.ref, over, under, pointOf(to), pointOf(from)});
-        return;
+        if (line.x_low <= from.x && to.x <= line.x_high)
+            return emit(lineKey(line.carrier), line.carrier.ref, line.y);
     }
-    out->counts.widest_gap_px = std::max(out->counts.widest_gap_px, to.x - from.x);
+    if (to.x - from.x <= kUnsure) return;
+    ++out->counts.closings;
+    emit(closingKey(leaf.ordinates[slab]), LineRef::closing(), leaf.ordinates[slab]);
 }
 
 SlabSweep::SlabSweep() : state_(std::make_unique<State>()) {}
 SlabSweep::~SlabSweep() = default;
 
 void SlabSweep::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
-                    std::span<const std::uint32_t> triangles, const VisibilityOptions& options, CellOutput& out) {
+                    std::span<const std::uint32_t> triangles, const VisibilityOptions& options,
+                    CellOutput& out) {
     State& s = *state_;
     s.leaf.collect(scene, cell, origin, triangles, options, out.counts);
     s.begin(scene, cell, origin, options, out);

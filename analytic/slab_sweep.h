@@ -1,4 +1,5 @@
-// Visibility of a leaf: a cell is cut into slabs at every event; in a slab the owners are a one-dimensional question.
+// Visibility of a leaf: a cell is cut into slabs at every event; in a slab the owners are a one-dimensional
+// question.
 #pragma once
 
 #include <memory>
@@ -16,8 +17,8 @@ class SlabSweep {
 
     /// The owners of `cell` among `triangles` (indices into scene.triangles), appended to `out`.
     /// `origin`: a grid point near the cell, the frame of its arithmetic.
-    void run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::span<const std::uint32_t> triangles,
-             const VisibilityOptions& options, CellOutput& out);
+    void run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
+             std::span<const std::uint32_t> triangles, const VisibilityOptions& options, CellOutput& out);
 
   private:
     struct State;

@@ -7,7 +7,9 @@
 namespace edgewise {
 namespace {
 
-int floorToCell(int px) { return px - ((px % kCellPx) + kCellPx) % kCellPx; }
+int floorToCell(int px) {
+    return px - ((px % kCellPx) + kCellPx) % kCellPx;
+}
 
 }  // namespace
 
@@ -18,7 +20,7 @@ void VisibilityCounts::add(const VisibilityCounts& other) {
     depth_lines += other.depth_lines;
     exact_depth += other.exact_depth;
     hidden += other.hidden;
-    widest_gap_px = std::max(widest_gap_px, other.widest_gap_px);
+    closings += other.closings;
 }
 
 Window cellWindow(const Window& window) {

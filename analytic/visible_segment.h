@@ -25,12 +25,14 @@ struct CarrierLine {
     double nx_hi = 0.0, nx_lo = 0.0;
     double ny_hi = 0.0, ny_lo = 0.0;
     double c_hi = 0.0, c_lo = 0.0;
-    double length = 1.0;             ///< |n|
-    glm::dvec2 direction{1.0, 0.0};  ///< unit; (ny, -nx) / length: the canonical direction, towards +y, or -x if horizontal
+    double length = 1.0;  ///< |n|
+    glm::dvec2 direction{
+        1.0, 0.0};  ///< unit; (ny, -nx) / length: the canonical direction, towards +y, or -x if horizontal
 };
 
 /// A maximal visible piece of a line between two owners. Directed a -> b along its line's direction:
-/// `left` is the owner at smaller x (horizontal: at smaller y), and receives +F(a, b); `right` receives -F(a, b).
+/// `left` is the owner at smaller x (horizontal: at smaller y), and receives +F(a, b); `right` receives -F(a,
+/// b).
 struct VisibleSegment {
     FinePoint a, b;
     double length = 0.0;  ///< |b - a| px, rounded once

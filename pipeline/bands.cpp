@@ -11,14 +11,15 @@ namespace {
 
 /// Bytes of the rows of cells that pixels y0 .. y1 need.
 std::size_t bytesOf(const CellGrid& grid, const IdLists& lists, double y0, double y1) {
-    const std::size_t first = grid.index(0, grid.rowOf(y0)), last = grid.index(0, grid.rowOf(y1)) + grid.columns;
+    const std::size_t first = grid.index(0, grid.rowOf(y0)),
+                      last = grid.index(0, grid.rowOf(y1)) + grid.columns;
     return (lists.offsets[last] - lists.offsets[first]) * kBytesPerPair;
 }
 
 }  // namespace
 
-std::vector<PixelBox> bandsFor(const PixelBox& box, const CellGrid& grid, const IdLists& lists, double reach_px,
-                               glm::dvec2 offset_px, std::size_t bytes) {
+std::vector<PixelBox> bandsFor(const PixelBox& box, const CellGrid& grid, const IdLists& lists,
+                               double reach_px, glm::dvec2 offset_px, std::size_t bytes) {
     std::vector<PixelBox> bands;
     const auto needs = [&](int y0, int y1) {
         return bytesOf(grid, lists, y0 + offset_px.y - reach_px, y1 + offset_px.y + reach_px);
@@ -28,7 +29,8 @@ std::vector<PixelBox> bandsFor(const PixelBox& box, const CellGrid& grid, const 
         if (needs(y, end) > bytes)
             throw FailureError("--memory", fmt::format("rows {} to {} alone need {} MiB of buffers", y, end,
                                                        needs(y, end) >> 20));
-        while (end < box.y1 && needs(y, std::min(end + kCellPx, box.y1)) <= bytes) end = std::min(end + kCellPx, box.y1);
+        while (end < box.y1 && needs(y, std::min(end + kCellPx, box.y1)) <= bytes)
+            end = std::min(end + kCellPx, box.y1);
         bands.push_back({box.x0, y, box.x1, end});
         y = end;
     }

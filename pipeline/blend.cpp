@@ -6,7 +6,9 @@
 namespace edgewise {
 namespace {
 
-double toReal(FixedWeight w) { return std::ldexp(static_cast<double>(w), -kWeightBits); }
+double toReal(FixedWeight w) {
+    return std::ldexp(static_cast<double>(w), -kWeightBits);
+}
 
 /// Whether colours differ by more than the contract's contrast.
 struct ContrastRange {
@@ -20,8 +22,8 @@ struct ContrastRange {
 
 }  // namespace
 
-void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade, const glm::dvec3& background,
-           ImageBuffer& image) {
+void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade,
+           const glm::dvec3& background, ImageBuffer& image) {
     std::size_t pixel = 0;
     for (int y = tile.box.y0; y < tile.box.y1; ++y) {
         for (int x = tile.box.x0; x < tile.box.x1; ++x, ++pixel) {

@@ -23,7 +23,8 @@ struct CellGrid {
         const double y = px.y0 + kCellPx * static_cast<double>(i / columns);
         return {{x, y}, {x + kCellPx, y + kCellPx}};
     }
-    /// The cell, clamped to the grid, that holds a coordinate; `before` where a border belongs to the cell before it.
+    /// The cell, clamped to the grid, that holds a coordinate; `before` where a border belongs to the cell
+    /// before it.
     int columnOf(double x) const { return clampCell((x - px.x0) / kCellPx, columns); }
     int rowOf(double y) const { return clampCell((y - px.y0) / kCellPx, rows); }
 

@@ -17,7 +17,9 @@ namespace {
 glm::dvec3 ownerColor(Owner owner) {
     if (owner == kBackground) return glm::dvec3(0.0);
     const std::uint64_t h = (owner + 1) * 0x9e3779b97f4a7c15ull;
-    const auto channel = [h](int shift) { return 0.1 + 0.8 * static_cast<double>((h >> shift) & 0xff) / 255.0; };
+    const auto channel = [h](int shift) {
+        return 0.1 + 0.8 * static_cast<double>((h >> shift) & 0xff) / 255.0;
+    };
     return {channel(56), channel(48), channel(40)};
 }
 
@@ -46,7 +48,9 @@ std::string pointText(const FinePoint& p, glm::dvec2 offset) {
     return fmt::format("{},{},{},{}", p.grid.x - offset.x, p.rest.x, p.grid.y - offset.y, p.rest.y);
 }
 
-std::string ownerText(Owner owner) { return owner == kBackground ? "background" : fmt::format("{}", owner); }
+std::string ownerText(Owner owner) {
+    return owner == kBackground ? "background" : fmt::format("{}", owner);
+}
 
 }  // namespace
 
@@ -62,7 +66,9 @@ StageDump::StageDump(const std::optional<std::filesystem::path>& folder, const P
     segments_csv_ = "ax,ax_rest,ay,ay_rest,bx,bx_rest,by,by_rest,left,right\n";
 }
 
-void StageDump::write(const std::string& name, const std::string& text) const { writeAtomically(*folder_ / name, text); }
+void StageDump::write(const std::string& name, const std::string& text) const {
+    writeAtomically(*folder_ / name, text);
+}
 
 void StageDump::write(const std::string& name, const ImageBuffer& picture) const {
     writeImage(*folder_ / name, picture, {crop_.x1, crop_.y1, 0.0, {}});
@@ -71,7 +77,8 @@ void StageDump::write(const std::string& name, const ImageBuffer& picture) const
 void StageDump::plan(const std::vector<PlanEntry>& entries) {
     if (!active()) return;
     std::string text = "stage,runs,why\n";
-    for (const PlanEntry& e : entries) fmt::format_to(std::back_inserter(text), "{},{},\"{}\"\n", e.stage, e.runs, e.why);
+    for (const PlanEntry& e : entries)
+        fmt::format_to(std::back_inserter(text), "{},{},\"{}\"\n", e.stage, e.runs, e.why);
     write("plan.csv", text);
 }
 
@@ -80,8 +87,9 @@ void StageDump::screen(const ScreenScene& scene) {
     std::string text = "index,x0,y0,x1,y1,x2,y2,plane,dz_dx,dz_dy,z_anchor\n";
     for (const ScreenTriangle& t : scene.triangles) {
         const DepthPlane& z = scene.planes[t.plane];
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", t.owner, t.p_px[0].x, t.p_px[0].y,
-                       t.p_px[1].x, t.p_px[1].y, t.p_px[2].x, t.p_px[2].y, t.plane, z.dz_dx, z.dz_dy, z.z_anchor);
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", t.owner, t.p_px[0].x,
+                       t.p_px[0].y, t.p_px[1].x, t.p_px[1].y, t.p_px[2].x, t.p_px[2].y, t.plane, z.dz_dx,
+                       z.dz_dy, z.z_anchor);
     }
     write("screen.csv", text);
 }
@@ -91,9 +99,12 @@ void StageDump::gather(const CellGrid& grid, const IdLists& lists) {
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Cell cell = grid.cell(i);
         const std::size_t count = lists.offsets[i + 1] - lists.offsets[i];
-        fmt::format_to(std::back_inserter(gather_csv_), "{},{},{},{}\n", cell.min.x, cell.min.y, count, lists.offsets[i]);
-        const int x0 = std::max(crop_.x0, static_cast<int>(cell.min.x)), x1 = std::min(crop_.x1, static_cast<int>(cell.max.x));
-        const int y0 = std::max(crop_.y0, static_cast<int>(cell.min.y)), y1 = std::min(crop_.y1, static_cast<int>(cell.max.y));
+        fmt::format_to(std::back_inserter(gather_csv_), "{},{},{},{}\n", cell.min.x, cell.min.y, count,
+                       lists.offsets[i]);
+        const int x0 = std::max(crop_.x0, static_cast<int>(cell.min.x)),
+                  x1 = std::min(crop_.x1, static_cast<int>(cell.max.x));
+        const int y0 = std::max(crop_.y0, static_cast<int>(cell.min.y)),
+                  y1 = std::min(crop_.y1, static_cast<int>(cell.max.y));
         for (int y = y0; y < y1; ++y)
             for (int x = x0; x < x1; ++x) lengths_.rgba[lengths_.index(x, y)].x = static_cast<double>(count);
     }
@@ -127,7 +138,8 @@ void StageDump::weights(const WeightTile& tile) {
             const std::size_t i = counts_.index(x, y);
             counts_.rgba[i].x = static_cast<double>(tile.offset[pixel + 1] - tile.offset[pixel]);
             for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e)
-                fmt::format_to(std::back_inserter(weight_rows_[i]), "{},{},{},{}\n", x, y, ownerText(tile.entries[e].owner),
+                fmt::format_to(std::back_inserter(weight_rows_[i]), "{},{},{},{}\n", x, y,
+                               ownerText(tile.entries[e].owner),
                                std::ldexp(static_cast<double>(tile.entries[e].weight), -kWeightBits));
         }
     }

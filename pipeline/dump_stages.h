@@ -16,9 +16,10 @@ namespace edgewise {
 /// Collects what the stages hand over and writes, into its folder:
 ///     plan.csv       stage, runs, why
 ///     screen.csv     the screen triangles: index, vertices, depth plane
-///     gather.csv     cells: position, list length, list offset      gather.png    list lengths, brighter is longer
-///     segments.csv   line ends and owners                           segments.png  segments over the owners
-///     weights.csv    pixel, owner, weight                           weights.png   owners a pixel, brighter is more
+///     gather.csv     cells: position, list length, list offset      gather.png    list lengths, brighter is
+///     longer segments.csv   line ends and owners                           segments.png  segments over the
+///     owners weights.csv    pixel, owner, weight                           weights.png   owners a pixel,
+///     brighter is more
 /// Does nothing without a folder. Bands add to the same files.
 class StageDump {
   public:

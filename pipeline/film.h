@@ -18,15 +18,16 @@ struct PixelBox {
 struct Film {
     int width = 1024, height = 1024;
     PixelBox crop{0, 0, 1024, 1024};
-    glm::dvec2 shift_px{0.0};        ///< --shift: the film moves by this, so the picture moves by its negative
-    glm::dvec2 debug_offset_px{0.0};  ///< whole pixels added to the screen triangles after projection (a test)
+    glm::dvec2 shift_px{0.0};  ///< --shift: the film moves by this, so the picture moves by its negative
+    glm::dvec2 debug_offset_px{
+        0.0};  ///< whole pixels added to the screen triangles after projection (a test)
 };
 
 /// The camera a picture is made with: the file's, the user's own or the framing one.
 struct ResolvedCamera {
-    Camera camera;               ///< camera.xmag is derived from the film
+    Camera camera;  ///< camera.xmag is derived from the film
     glm::dmat4 camera_from_world{1.0};
-    std::string origin;          ///< "file", "framing", "command line"
+    std::string origin;  ///< "file", "framing", "command line"
 };
 
 }  // namespace edgewise

@@ -15,10 +15,12 @@ using Counters = std::vector<std::atomic<std::uint32_t>>;
 
 template <class Visit>
 void forTrianglesInParallel(const ScreenScene& scene, const CellGrid& grid, Visit&& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 512), [&](const auto& range) {
-        for (std::size_t t = range.begin(); t < range.end(); ++t)
-            forCellsOf(scene.triangles[t], grid, [&](std::size_t cell) { visit(cell, static_cast<std::uint32_t>(t)); });
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 512), [&](const auto& range) {
+            for (std::size_t t = range.begin(); t < range.end(); ++t)
+                forCellsOf(scene.triangles[t], grid,
+                           [&](std::size_t cell) { visit(cell, static_cast<std::uint32_t>(t)); });
+        });
 }
 
 }  // namespace
@@ -29,7 +31,8 @@ IdLists gather(const ScreenScene& scene, const CellGrid& grid) {
         histogram[cell].fetch_add(1, std::memory_order_relaxed);
     });
     std::vector<std::uint32_t> counts(grid.size());
-    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = histogram[i].exchange(0, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        counts[i] = histogram[i].exchange(0, std::memory_order_relaxed);
     IdLists lists;
     lists.offsets = offsetsFromCounts(counts);
     lists.ids.resize(lists.offsets.back());

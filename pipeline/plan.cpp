@@ -49,7 +49,8 @@ std::string fetchReason(const Scene& scene) {
         textured += m.base_color_texture != kNone;
         unlit += m.unlit;
     }
-    return fmt::format("{} of {} materials have a texture, {} are unlit", textured, scene.materials.size(), unlit);
+    return fmt::format("{} of {} materials have a texture, {} are unlit", textured, scene.materials.size(),
+                       unlit);
 }
 
 }  // namespace
@@ -60,8 +61,8 @@ const std::vector<std::string>& skippableStages() {
     return names;
 }
 
-Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces, const Shading& shading,
-              const RenderOptions& options) {
+Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces,
+              const Shading& shading, const RenderOptions& options) {
     Plan plan;
     const auto add = [&](const char* stage, bool runs, std::string why) {
         if (options.keeps(stage)) runs = true, why = "forced by --no-skip";
@@ -69,10 +70,13 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
         return !runs;
     };
     const bool one_plane = screen.planes.size() < 2;
-    plan.visibility.cell.certify = add("visibility", false, "not in cells that one sheet of triangles covers");
-    plan.visibility.cell.every_depth_line = !add(
-        "piercing", false, one_plane ? "one plane: nothing pierces" : "only for pairs that change order in a cell");
-    plan.visibility.cell.occlusion = add("occlusion", false, "what one triangle hides in a whole cell is dropped");
+    plan.visibility.cell.certify =
+        add("visibility", false, "not in cells that one sheet of triangles covers");
+    plan.visibility.cell.every_depth_line =
+        !add("piercing", false,
+             one_plane ? "one plane: nothing pierces" : "only for pairs that change order in a cell");
+    plan.visibility.cell.occlusion =
+        add("occlusion", false, "what one triangle hides in a whole cell is dropped");
     plan.visibility.skip_empty = add("empty", false, "cells without triangles cost nothing");
     plan.weights.skip_interior = add("interior", false, "a support without segments is its owner's");
 
@@ -80,15 +84,17 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
     plan.constant = constantColors(pieces, shading);
     OwnerClasses by_color = classesOf(plan.constant, merged, classes);
     const bool cancel = !by_color.representative.empty();
-    const std::string cancel_why = cancel ? fmt::format("{} triangles have {} constant colours: segments between "
-                                                        "equal ones are not integrated", merged, classes)
+    const std::string cancel_why = cancel ? fmt::format(
+                                                "{} triangles have {} constant colours: segments between "
+                                                "equal ones are not integrated",
+                                                merged, classes)
                                           : "no two triangles have one constant colour";
     if (add("cancel", !cancel, cancel_why)) plan.classes = std::move(by_color);
     plan.weights.skip_cancelling = !options.keeps("cancel");
     const bool fetch = merged == 0;
-    const std::string fetch_why = fetch ? "every colour varies: " + fetchReason(scene)
-                                        : fmt::format("{} triangles of constant colour fetch nothing; {}", merged,
-                                                      fetchReason(scene));
+    const std::string fetch_why =
+        fetch ? "every colour varies: " + fetchReason(scene)
+              : fmt::format("{} triangles of constant colour fetch nothing; {}", merged, fetchReason(scene));
     if (!add("fetch", fetch, fetch_why)) plan.constant.clear();
     return plan;
 }

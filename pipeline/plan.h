@@ -1,4 +1,5 @@
-// The plan: which stages run for a scene, and why the others do not. Data, printed by --explain and `edgewise info`.
+// The plan: which stages run for a scene, and why the others do not. Data, printed by --explain and `edgewise
+// info`.
 #pragma once
 
 #include <vector>
@@ -14,14 +15,14 @@ struct Plan {
     std::vector<PlanEntry> entries;
     VisibilityStageOptions visibility;
     WeightOptions weights;
-    OwnerClasses classes;                          ///< empty where nothing cancels
+    OwnerClasses classes;                             ///< empty where nothing cancels
     std::vector<std::optional<glm::dvec3>> constant;  ///< by owner; empty where every colour is fetched
 };
 
 /// Names that --no-skip takes.
 const std::vector<std::string>& skippableStages();
 
-Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces, const Shading& shading,
-              const RenderOptions& options);
+Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces,
+              const Shading& shading, const RenderOptions& options);
 
 }  // namespace edgewise

@@ -75,10 +75,10 @@ struct Ignored {
 };
 
 struct Scene {
-    std::string source;              ///< file or name, as the user gave it
-    std::vector<Geometry> geometry;  ///< in index order: depth-first nodes, their mesh's primitives
+    std::string source;               ///< file or name, as the user gave it
+    std::vector<Geometry> geometry;   ///< in index order: depth-first nodes, their mesh's primitives
     std::vector<Material> materials;  ///< the file's, in order, then the default one
-    std::vector<Texture> textures;  ///< those that drawn materials use; never without an image
+    std::vector<Texture> textures;    ///< those that drawn materials use; never without an image
     std::vector<Image> images;
     std::vector<Camera> cameras;  ///< camera nodes in depth-first order
     std::vector<std::string> node_names, mesh_names;

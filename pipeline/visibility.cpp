@@ -21,7 +21,8 @@ void emptyRows(const Cell& cell, std::vector<RowPiece>& rows) {
 }
 
 template <class Item>
-std::vector<Item> concatenate(tbb::enumerable_thread_specific<Worker>& workers, std::vector<Item> CellOutput::*part) {
+std::vector<Item> concatenate(tbb::enumerable_thread_specific<Worker>& workers,
+                              std::vector<Item> CellOutput::*part) {
     std::size_t size = 0;
     for (Worker& w : workers) size += (w.out.*part).size();
     std::vector<Item> all;
@@ -43,7 +44,8 @@ VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLi
         if (progress.cancelled()) throw Interrupted();
         Worker& worker = workers.local();
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const auto ids = std::span(lists.ids).subspan(lists.offsets[i], lists.offsets[i + 1] - lists.offsets[i]);
+            const auto ids =
+                std::span(lists.ids).subspan(lists.offsets[i], lists.offsets[i + 1] - lists.offsets[i]);
             if (ids.empty() && options.skip_empty)
                 emptyRows(grid.cell(i), worker.out.rows);
             else

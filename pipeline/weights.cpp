@@ -15,9 +15,12 @@ namespace {
 /// PixelWeights wants every segment within 2^-30 px of a support.
 constexpr double kReachSlackPx = 0x1p-29;
 
-glm::dvec2 rounded(const FinePoint& p) { return p.grid + p.rest; }
+glm::dvec2 rounded(const FinePoint& p) {
+    return p.grid + p.rest;
+}
 
-/// The part of a -> b within [y0, y1] spans these abscissae; empty: x0 > x1. Widened by what rounding may lose.
+/// The part of a -> b within [y0, y1] spans these abscissae; empty: x0 > x1. Widened by what rounding may
+/// lose.
 std::pair<double, double> spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, double y1) {
     if (a.y > y1 || b.y < y0) return {1.0, 0.0};
     double xa = a.x, xb = b.x;
@@ -54,7 +57,8 @@ struct TileLattice {
 };
 
 template <class Visit>
-void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 offset_px, double radius, Visit&& visit) {
+void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 offset_px, double radius,
+                Visit&& visit) {
     const glm::dvec2 a = rounded(s.a) - offset_px, b = rounded(s.b) - offset_px;
     const double reach = radius + kReachSlackPx;
     const auto [r0, r1] = TileLattice::range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
@@ -73,17 +77,22 @@ WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec
     const TileLattice lattice(box);
     WeightTiles tiles;
     for (int row = 0; row < lattice.rows; ++row)
-        for (int column = 0; column < lattice.columns; ++column) tiles.boxes.push_back(lattice.tile(column, row));
+        for (int column = 0; column < lattice.columns; ++column)
+            tiles.boxes.push_back(lattice.tile(column, row));
     std::vector<std::atomic<std::uint32_t>> histogram(tiles.boxes.size());
     const auto forSegments = [&](auto&& visit) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.segments.size(), 1024), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-                forTilesOf(map.segments[i], lattice, offset_px, radius, [&](std::size_t tile) { visit(tile, i); });
-        });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.segments.size(), 1024),
+                          [&](const auto& range) {
+                              for (std::size_t i = range.begin(); i < range.end(); ++i)
+                                  forTilesOf(map.segments[i], lattice, offset_px, radius,
+                                             [&](std::size_t tile) { visit(tile, i); });
+                          });
     };
-    forSegments([&](std::size_t tile, std::size_t) { histogram[tile].fetch_add(1, std::memory_order_relaxed); });
+    forSegments(
+        [&](std::size_t tile, std::size_t) { histogram[tile].fetch_add(1, std::memory_order_relaxed); });
     std::vector<std::uint32_t> counts(histogram.size());
-    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = histogram[i].exchange(0, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        counts[i] = histogram[i].exchange(0, std::memory_order_relaxed);
     tiles.segments.offsets = offsetsFromCounts(counts);
     tiles.segments.ids.resize(tiles.segments.offsets.back());
     forSegments([&](std::size_t tile, std::size_t i) {
@@ -111,7 +120,8 @@ void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32
     }
 }
 
-void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out) {
+void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base,
+                            WeightTile& out) {
     bool begun = false;
     for (const Span& span : row_) {
         if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
@@ -133,8 +143,9 @@ void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, 
     for (int k = 0; k < count; ++k) out.offset.push_back(offset[k + 1]);
 }
 
-void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
-                       const PixelBox& box, glm::dvec2 offset_px, WeightTile& out) {
+void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> segments,
+                       const OwnerClasses& classes, const PixelBox& box, glm::dvec2 offset_px,
+                       WeightTile& out) {
     out.box = box;
     out.offset.assign(1, 0);
     out.entries.clear();
@@ -146,7 +157,8 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
             const int count = std::min(PixelWeights::kLanes, box.x1 - x);
             const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
             const int row = y + static_cast<int>(offset_px.y);
-            ownersAlongRow(map, row, first.x + radius_, count, [&](int k, Owner o) { base[k] = classes.of(o); });
+            ownersAlongRow(map, row, first.x + radius_, count,
+                           [&](int k, Owner o) { base[k] = classes.of(o); });
             runGroup(map, first, count, base, out);
         }
     }

@@ -1,4 +1,5 @@
-// Weights: the visible map and a prefilter become, for every pixel, the weight of each owner (NSAA section 3.2).
+// Weights: the visible map and a prefilter become, for every pixel, the weight of each owner (NSAA
+// section 3.2).
 #pragma once
 
 #include <span>
@@ -18,7 +19,8 @@ struct OwnerClasses {
     }
 };
 
-/// Owner weights of the pixels of one box, pixel by pixel in rows: entries[offset[p]] .. entries[offset[p + 1]].
+/// Owner weights of the pixels of one box, pixel by pixel in rows: entries[offset[p]] .. entries[offset[p +
+/// 1]].
 struct WeightTile {
     PixelBox box;
     std::vector<std::size_t> offset;
@@ -26,7 +28,7 @@ struct WeightTile {
 };
 
 struct WeightOptions {
-    bool skip_interior = true;  ///< a support without segments: the point's owner has it all
+    bool skip_interior = true;    ///< a support without segments: the point's owner has it all
     bool skip_cancelling = true;  ///< a segment between owners of one class is not integrated
 };
 
@@ -50,8 +52,8 @@ class WeightWorker {
         Owner left, right;
         double x0, x1;  ///< of the part within reach of the row
     };
-    void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments, const OwnerClasses& classes,
-                    double y);
+    void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
+                    const OwnerClasses& classes, double y);
     void runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out);
 
     double radius_;

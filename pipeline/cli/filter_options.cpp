@@ -24,7 +24,7 @@ Prefilter readFilter(const FilterArguments& arguments) {
     try {
         return makePrefilter(arguments.name, radius, sigma);
     } catch (const std::invalid_argument& error) {
-        throw InputError("filter " + arguments.name, error.what());
+        throw InputError("--filter", error.what());  // which names the filter
     }
 }
 

@@ -18,6 +18,7 @@ namespace edgewise::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> kDevices{"auto", "cpu", "vulkan"};
+constexpr std::array<std::string_view, 2> kPrecisions{"fp64", "fp32"};
 constexpr int kMaxThreads = 4096;
 constexpr int kMaxShadingSamples = 4096;
 constexpr std::int64_t kMaxMemoryMib = std::int64_t{1} << 32;
@@ -47,11 +48,23 @@ ShadingChoice readShading(const std::string& text) {
             static_cast<int>(parseInteger("--shading", number, 1, kMaxShadingSamples))};
 }
 
+/// EXR holds float32: a colour beyond it could not be written.
+glm::dvec3 readBackground(const std::string& text) {
+    const glm::dvec3 color = parseTriple("--background", text);
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (glm::any(glm::greaterThan(glm::abs(color), glm::dvec3(kLargest))))
+        throw InputError("--background", fmt::format("'{}' is outside the range of a float32", text));
+    return color;
+}
+
 }  // namespace
 
 void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
     command.add_option("--device", arguments.device, "auto takes Vulkan only when a real GPU is there")
         ->type_name("cpu|vulkan|auto")
+        ->capture_default_str();
+    command.add_option("--precision", arguments.precision, "arithmetic of weights; this build has fp64")
+        ->type_name("fp64|fp32")
         ->capture_default_str();
     command
         .add_option(
@@ -77,12 +90,13 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
 RenderOptions readMethodOptions(const MethodArguments& arguments) {
     RenderOptions options;
     requireOneOf("--device", arguments.device, kDevices);
+    requireOneOf("--precision", arguments.precision, kPrecisions);
     options.shading = readShading(arguments.shading);
     for (const std::string& name : arguments.no_skip) {
         requireOneOf("--no-skip", name, noSkipNames());
         options.no_skip.insert(name);
     }
-    if (arguments.background) options.background = parseTriple("--background", *arguments.background);
+    if (arguments.background) options.background = readBackground(*arguments.background);
     if (arguments.threads)
         options.threads = static_cast<int>(parseInteger("--threads", *arguments.threads, 1, kMaxThreads));
     if (arguments.memory)
@@ -100,9 +114,15 @@ ThreadLimit::ThreadLimit(const RenderOptions& options) {
                          static_cast<std::size_t>(options.threads));
 }
 
-void checkDevice(const MethodArguments& arguments, const MethodSpec& method) {
+void checkAbilities(const MethodArguments& arguments, const MethodSpec& method) {
     if (method.parameter("device", arguments.device) == "vulkan")
         throw FailureError("device vulkan", "this build has no Vulkan");
+    if (arguments.precision != "fp64")
+        throw FailureError("--precision " + arguments.precision, "this build computes weights in fp64 only");
+    // `hit` asks sampling methods alone for something; every other method shades as ever.
+    const bool elsewhere = arguments.shading != "closest" && arguments.shading != "hit";
+    if (elsewhere && method.name == "nsaa")
+        throw FailureError("--shading " + arguments.shading, "nsaa shades at the closest point only");
 }
 
 }  // namespace edgewise::cli

@@ -15,12 +15,13 @@ namespace edgewise::cli {
 /// The flags as typed; an absent one is empty.
 struct MethodArguments {
     std::string device = "auto";
+    std::string precision = "fp64";
     std::string shading = "closest";
     std::optional<std::string> background, threads, memory, seed;
     std::vector<std::string> no_skip;
 };
 
-/// Adds --device, --shading, --background, --threads, --memory, --seed, --no-skip.
+/// Adds --device, --precision, --shading, --background, --threads, --memory, --seed, --no-skip.
 void addMethodOptions(CLI::App& command, MethodArguments& arguments);
 
 RenderOptions readMethodOptions(const MethodArguments& arguments);
@@ -34,7 +35,8 @@ class ThreadLimit {
     std::optional<tbb::global_control> control_;
 };
 
-/// Throws FailureError when --device, or the method's own device=, asks for what this build has not.
-void checkDevice(const MethodArguments& arguments, const MethodSpec& method);
+/// Throws FailureError when --device, the method's own device= or --precision ask for what this build has
+/// not, or --shading for what the method has not.
+void checkAbilities(const MethodArguments& arguments, const MethodSpec& method);
 
 }  // namespace edgewise::cli

@@ -44,12 +44,21 @@ double readExposure(const std::optional<std::string>& text) {
     return ev;
 }
 
+/// Absolute first: the part of a relative path that does not exist stays relative.
+std::filesystem::path resolved(const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+}
+
 void checkOutputs(const RenderArguments& arguments) {
     for (const std::string& output : arguments.outputs) {
         checkOutputPath(output);
         imageFormat(output);
     }
-    if (arguments.stats) checkOutputPath(*arguments.stats);
+    if (!arguments.stats) return;
+    checkOutputPath(*arguments.stats);
+    for (const std::string& output : arguments.outputs)
+        if (resolved(output) == resolved(*arguments.stats))
+            throw InputError("--stats", fmt::format("{} is an --output too", *arguments.stats));
 }
 
 /// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in
@@ -104,7 +113,7 @@ void render(const RenderArguments& arguments) {
     const MethodSpec method = parseMethod(arguments.method);
     RenderOptions options = readMethodOptions(arguments.making);
     if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
-    checkDevice(arguments.making, method);
+    checkAbilities(arguments.making, method);
 
     const ThreadLimit threads(options);
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());

@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/error.h"
@@ -67,6 +68,8 @@ int runAndReport(const std::function<void()>& work) {
         return fail("memory: not enough for this picture", kFailed);
     } catch (const std::filesystem::filesystem_error& error) {
         return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()), kFailed);
+    } catch (const std::system_error& error) {  // fmt::print on a full disk; files go through atomic_file
+        return fail(fmt::format("standard output: {}", error.code().message()), kFailed);
     } catch (const std::exception& error) {
         return fail(fmt::format("internal: {}", error.what()), kFailed);
     }

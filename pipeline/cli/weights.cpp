@@ -60,10 +60,11 @@ Json filterJson(const Prefilter& filter) {
 void weights(const WeightsArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const RenderOptions options = readMethodOptions(arguments.making);
-    checkDevice(arguments.making, parseMethod("nsaa"));
+    checkAbilities(arguments.making, parseMethod("nsaa"));
     const ThreadLimit threads(options);
     ProgressBar quiet(false, interruptFlag());
     const Picture picture = loadPicture(arguments.picture, quiet);
+    warnOfIgnored(picture.scene);
     const glm::ivec2 pixel = readPixel(arguments.pixel, picture.film);
     const PixelReport report =
         pixelWeights({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel.x, pixel.y);

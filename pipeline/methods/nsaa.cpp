@@ -1,5 +1,6 @@
-// Non-sampled antialiasing (Auzinger et al. 2013): every pixel is the closed-form integral of the prefilter over the
-// visible part of every triangle. project -> plan -> gather -> visibility -> weights -> shade and blend.
+// Non-sampled antialiasing (Auzinger et al. 2013): every pixel is the closed-form integral of the prefilter
+// over the visible part of every triangle. project -> plan -> gather -> visibility -> weights -> shade and
+// blend.
 #include "pipeline/methods/nsaa.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,9 @@ namespace edgewise {
 namespace {
 
 /// Supports end R from a sample; a pixel more keeps the window's own cuts out of every support.
-double reachOf(const Prefilter& filter) { return filter.radius + 1.0; }
+double reachOf(const Prefilter& filter) {
+    return filter.radius + 1.0;
+}
 
 Window windowOf(const PixelBox& box, glm::dvec2 offset_px, double reach) {
     return {static_cast<int>(std::floor(box.x0 + offset_px.x - reach)),
@@ -79,7 +82,8 @@ class Nsaa {
             if (entry.owner == kBackground)
                 out.background = weight;
             else
-                out.owners.push_back({entry.owner, weight, shade(entry.owner, glm::dvec2(x + 0.5, y + 0.5) + offset())});
+                out.owners.push_back(
+                    {entry.owner, weight, shade(entry.owner, glm::dvec2(x + 0.5, y + 0.5) + offset())});
         }
         out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
         return out;
@@ -99,7 +103,8 @@ class Nsaa {
         const IdLists lists = gather(screen_, grid);
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
-        const std::size_t image = result_.image.rgba.size() * sizeof(glm::dvec4) + result_.image.edge.size() * sizeof(float);
+        const std::size_t image =
+            result_.image.rgba.size() * sizeof(glm::dvec4) + result_.image.edge.size() * sizeof(float);
         if (image >= limit)
             throw FailureError("--memory", fmt::format("the image alone needs {} MiB", image >> 20));
         auto bands = bandsFor(crop, grid, lists, reachOf(in_.filter), offset(), limit - image);
@@ -124,8 +129,9 @@ class Nsaa {
         dump_.segments(map, band, offset());
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
-        tbb::enumerable_thread_specific<TileWorker> workers(
-            [&] { return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}}; });
+        tbb::enumerable_thread_specific<TileWorker> workers([&] {
+            return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+        });
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
             renderTile(map, tiles, t, workers.local());
@@ -137,13 +143,15 @@ class Nsaa {
     void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {
         const auto& lists = tiles.segments;
         Stopwatch watch;
-        worker.weights.run(map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
-                           plan_.classes, tiles.boxes[t], offset(), worker.tile);
+        worker.weights.run(
+            map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
+            plan_.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
         dump_.weights(worker.tile);
         worker.pairs += worker.tile.entries.size();
-        blend(worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); }, in_.options.background,
-              result_.image);
+        blend(
+            worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); },
+            in_.options.background, result_.image);
         watch.book("blend", worker.times);
     }
 
@@ -194,8 +202,12 @@ class Nsaa {
 
 }  // namespace
 
-MethodResult runNsaa(const MethodSpec&, const MethodInput& input) { return Nsaa(input).render(); }
+MethodResult runNsaa(const MethodSpec&, const MethodInput& input) {
+    return Nsaa(input).render();
+}
 
-PixelReport pixelWeights(const MethodInput& input, int x, int y) { return Nsaa(input).report(x, y); }
+PixelReport pixelWeights(const MethodInput& input, int x, int y) {
+    return Nsaa(input).report(x, y);
+}
 
 }  // namespace edgewise

@@ -35,6 +35,7 @@ TEST(Help, OfRenderNamesEveryFlag) {
                              "--radius R",
                              "--sigma S",
                              "--device cpu|vulkan|auto",
+                             "--precision fp64|fp32",
                              "--shading closest|centroid|samples:N|hit",
                              "--background R,G,B",
                              "--exposure EV",

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Output, WrongCommandLine,
                                          WrongCase{{"render", "torus-20k", "-o", "none/a.exr"}, "none"},
                                          WrongCase{{"render", "torus-20k", "-o"}, "--output"},
                                          WrongCase{renderWith({"--stats", "none/a.json"}), "none"},
+                                         WrongCase{renderWith({"--stats", "./a.exr"}), "--stats"},
                                          WrongCase{renderWith({"--dump-stages", "empty.glb"}), "empty.glb"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,11 +108,17 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", ""}, "method"},
                     WrongCase{renderWith({"--device", "abacus"}), "--device"},
                     WrongCase{renderWith({"--device", "vulkan"}), "Vulkan", 1},
+                    WrongCase{renderWith({"--precision", "fp16"}), "--precision"},
+                    WrongCase{renderWith({"--precision", "fp32"}), "fp64 only", 1},
+                    WrongCase{{"render", "torus-20k", "-o", "a.exr", "--shading", "centroid"}, "closest", 1},
+                    WrongCase{
+                        {"weights", "torus-20k", "--pixel", "1,1", "--shading", "samples:4"}, "closest", 1},
                     WrongCase{renderWith({"--shading", "loud"}), "--shading"},
                     WrongCase{renderWith({"--shading", "samples:0"}), "--shading"},
                     WrongCase{renderWith({"--no-skip", "everything"}), "--no-skip"},
                     WrongCase{renderWith({"--background", "1,1"}), "--background"},
                     WrongCase{renderWith({"--background", "1,nan,1"}), "--background"},
+                    WrongCase{renderWith({"--background", "0,1e39,0"}), "--background"},
                     WrongCase{renderWith({"--exposure", "inf"}), "--exposure"},
                     WrongCase{renderWith({"--threads", "0"}), "--threads"},
                     WrongCase{renderWith({"--threads", "many"}), "--threads"},

@@ -7,6 +7,7 @@
 #include "analytic/visibility.h"
 #include "tests/fuzz/scene_from_bytes.h"
 #include "tests/witness/map_scan.h"
+#include "tests/witness/product_weights.h"
 
 namespace edgewise::fuzz {
 namespace {
@@ -32,6 +33,29 @@ std::string checkSegments(const VisibleMap& map) {
     return {};
 }
 
+/// An open boundary shows in the weights of positive kernels: an owner below 0, or labels that do not chain.
+/// The kernels take both ways to the closed form, strips and fans, and supports within the judged window.
+std::string checkWeights(const VisibleMap& map) {
+    constexpr double kRoundings = 0x1p-40;  // of up to a thousand terms and border shares, with room
+    for (const char* name : {"box", "disk", "cone", "gaussian"}) {
+        const Prefilter filter = makePrefilter(name, {}, {});
+        for (const glm::ivec2 by : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(-1, 1)}) {
+            const glm::ivec2 pixel = glm::ivec2(int(std::floor(kSamplePx))) + by;
+            const auto product = witness::productWeights(map, filter, pixel);
+            FixedWeight sum = 0;
+            for (const OwnerWeight& entry : product.weights) {
+                sum += entry.weight;
+                const double weight = std::ldexp(double(entry.weight), -kWeightBits);
+                if (weight < -kRoundings || weight > 1 + kRoundings)
+                    return fmt::format("{}: owner {} has weight {}", name, entry.owner, weight);
+            }
+            if (sum != FixedWeight{1} << kWeightBits) return fmt::format("{}: weights do not sum to 1", name);
+            if (product.label_conflicts != 0) return fmt::format("{}: border labels do not chain", name);
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string checkVisibility(const ScreenScene& scene) {
@@ -39,6 +63,7 @@ std::string checkVisibility(const ScreenScene& scene) {
     const VisibleMap map =
         visibleMap(scene, {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1});
     if (std::string wrong = checkSegments(map); !wrong.empty()) return wrong;
+    if (std::string wrong = checkWeights(map); !wrong.empty()) return wrong;
     const auto verdict = witness::compareMap(scene, map, {kSamplePx, kSamplePx}, kReachPx, 1, kRandomLines);
     if (verdict.wrong_px2 <= kWrongPx2) return {};
     return fmt::format("{:.3g} px2 wrong, {} places without a single owner; first: {}",
