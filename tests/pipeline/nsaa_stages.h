@@ -33,8 +33,9 @@ struct PixelParts {
                 return std::ldexp(static_cast<double>(entry.weight), -kWeightBits);
         return 0.0;
     }
-    /// A weight errs by each term's rounding and the fixed point's. A colour sums n products: n roundings of
-    /// the weight to double, n of the products, n of the sums.
+    /// A weight errs by each term's rounding and the fixed point's. In a colour each of n products is rounded
+    /// twice (the weight to double, the product), and their sum n - 1 times: (n + 1) u of the products'
+    /// sizes, to first order; one more u covers the rest.
     double colorError() const {
         double size = 0.0;
         for (const OwnerWeight& entry : entries)

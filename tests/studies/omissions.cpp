@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <functional>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/plan.h"
@@ -61,10 +62,11 @@ StudyOptions readOptions(const Arguments& arguments, const std::string& filter) 
     return options;
 }
 
-/// A scene that cannot be made here is named, and the others go on.
-std::string study(const StudyOptions& options) {
+/// The tables of one filter. `keep` gets them after every scene, so that an interrupted study leaves what it
+/// has. A scene that cannot be made here is named, and the others go on.
+std::string study(const StudyOptions& options, const std::function<void(const std::string&)>& keep) {
     std::vector<SceneCosts> costs;
-    std::string failures;
+    std::string failures, text;
     for (const std::string& scene : options.scenes) {
         fmt::print(stderr, "{} {}\n", options.filter.name, scene);
         try {
@@ -72,8 +74,10 @@ std::string study(const StudyOptions& options) {
         } catch (const std::runtime_error& error) {
             failures += fmt::format("{}: {}\n\n", scene, error.what());
         }
+        text = "## " + describeStudy(options) + omissionTable(costs) + stageTable(costs) + failures;
+        keep(text);
     }
-    return "## " + describeStudy(options) + omissionTable(costs) + stageTable(costs) + failures;
+    return text;
 }
 
 int run(int count, char** words) {
@@ -82,10 +86,10 @@ int run(int count, char** words) {
     addOptions(program, arguments);
     CLI11_PARSE(program, count, words);
     std::string text;
-    for (const std::string& filter : arguments.filters) {
-        text += study(readOptions(arguments, filter));
-        if (!arguments.output.empty()) writeAtomically(arguments.output, text);
-    }
+    const auto keep = [&](const std::string& part) {
+        if (!arguments.output.empty()) writeAtomically(arguments.output, text + part);
+    };
+    for (const std::string& filter : arguments.filters) text += study(readOptions(arguments, filter), keep);
     fmt::print("{}", text);
     return 0;
 }
