@@ -13,10 +13,18 @@ namespace {
 std::size_t bytesOf(const CellGrid& grid, const IdLists& lists, double y0, double y1) {
     const std::size_t first = grid.index(0, grid.rowOf(y0)),
                       last = grid.index(0, grid.rowOf(y1)) + grid.columns;
-    return (lists.offsets[last] - lists.offsets[first]) * kBytesPerPair;
+    return (lists.offsets[last] - lists.offsets[first]) * kBytesPerPair + (last - first) * kBytesPerCell;
 }
 
 }  // namespace
+
+void requireLattice(const CellGrid& grid, std::size_t bytes) {
+    constexpr std::size_t kBytesOfGather = 2 * sizeof(std::uint32_t) + sizeof(std::size_t);
+    if (grid.size() > bytes / kBytesOfGather)
+        throw FailureError(
+            "--memory", fmt::format("{} x {} cells of {} pixels that the filter reaches need {} MiB",
+                                    grid.columns, grid.rows, kCellPx, (grid.size() * kBytesOfGather) >> 20));
+}
 
 std::vector<PixelBox> bandsFor(const PixelBox& box, const CellGrid& grid, const IdLists& lists,
                                double reach_px, glm::dvec2 offset_px, std::size_t bytes) {

@@ -70,6 +70,7 @@ class Nsaa {
     PixelReport report(int x, int y) {
         plan_.classes.representative.clear();
         const PixelBox box{x, y, x + 1, y + 1};
+        cutIntoBands(box);  // throws where --memory does not suffice
         const VisibleMap map = visibleMapOf(box);
         TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}};
         const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
@@ -100,6 +101,7 @@ class Nsaa {
     /// The buffers beside the image share what --memory leaves.
     std::vector<PixelBox> cutIntoBands(const PixelBox& crop) {
         const CellGrid grid(windowOf(crop, offset(), reachOf(in_.filter)));
+        requireLattice(grid, in_.options.memory_mib << 20);
         const IdLists lists = gather(screen_, grid);
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
