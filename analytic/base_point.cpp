@@ -14,6 +14,9 @@ namespace {
 /// segment than this.
 constexpr double kLookupPx = 0x1p-31;
 
+/// B and a vertex nearer than 2^-50 px are one point: their coordinates relative to the sample carry two roundings.
+constexpr double kOnePoint2 = 0x1p-100;
+
 struct Ends {
     glm::dvec2 a, b;  // relative to the sample, as the edge terms see them
 };
@@ -49,15 +52,19 @@ void considerBase(BasePoint& base, bool radial, double R, glm::dvec2 sample, con
     const glm::dvec2 B{R, 0.0}, d = line.direction;
     const double near = std::min(kLookupPx, R * 0x1p-20);
     const double t = dot(B - ends.a, d), across = (B.x - ends.a.x) * d.y - (B.y - ends.a.y) * d.x;
-    const glm::dvec2 end = t <= 0 ? ends.a : ends.b;
-    const bool at_end = t <= 0 || t >= segment.length;
-    const double distance2 = at_end ? dot(B - end, B - end) : across * across;
+    // A shared vertex at B is an end of each of its segments, and equally near, whatever t rounds to.
+    const bool first = dot(B - ends.a, B - ends.a) < dot(B - ends.b, B - ends.b);
+    const glm::dvec2 end = first ? ends.a : ends.b;
+    const double end2 = dot(B - end, B - end);
+    const bool at_end = t <= 0 || t >= segment.length || end2 <= kOnePoint2;
+    const double nearest2 = at_end ? end2 : across * across;
+    const double distance2 = nearest2 <= kOnePoint2 ? 0.0 : nearest2;
     if (!(distance2 <= near * near)) return;
     const std::optional<bool> inside = bothInside(radial, R, ends);
     if (!inside) return;
     // the border lies beyond the segment (+x) when it is inside, else on its near side
     const double way = *inside ? 1.0 : -1.0;
-    const double cosine = at_end ? way * (t <= 0 ? d.x : -d.x) : 0.0;
+    const double cosine = at_end ? way * (first ? d.x : -d.x) : 0.0;
     const bool sample_is_left = radial ? sideOfSample(line, sample) > 0 : true;
     const Owner owner = sample_is_left != *inside ? left : right;
     const BasePoint fresh{distance2, cosine, owner};

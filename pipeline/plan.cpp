@@ -71,14 +71,18 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
     };
     const bool one_plane = screen.planes.size() < 2;
     plan.visibility.cell.certify =
-        add("visibility", false, "not in cells that one sheet of triangles covers");
-    plan.visibility.cell.every_depth_line =
-        !add("piercing", false,
-             one_plane ? "one plane: nothing pierces" : "only for pairs that change order in a cell");
+        add("visibility", false,
+            "where one sheet of triangles covers a cell: its edges are the visible segments");
+    plan.visibility.cell.every_depth_line = !add(
+        "piercing", false,
+        one_plane ? "one plane: nothing pierces" : "for pairs of triangles that keep their order in a cell");
     plan.visibility.cell.occlusion =
-        add("occlusion", false, "what one triangle hides in a whole cell is dropped");
-    plan.visibility.skip_empty = add("empty", false, "cells without triangles cost nothing");
-    plan.weights.skip_interior = add("interior", false, "a support without segments is its owner's");
+        add("occlusion", false,
+            "for triangles that another one hides in a whole cell: dropped before pairs are made");
+    plan.visibility.skip_empty =
+        add("empty", false, "for cells without triangles: they are the background's");
+    plan.weights.skip_interior =
+        add("interior", false, "for supports without segments: the owner there has all the weight");
 
     std::size_t merged = 0, classes = 0;
     plan.constant = constantColors(pieces, shading);
