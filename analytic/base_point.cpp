@@ -14,7 +14,8 @@ namespace {
 /// segment than this.
 constexpr double kLookupPx = 0x1p-31;
 
-/// B and a vertex nearer than 2^-50 px are one point: their coordinates relative to the sample carry two roundings.
+/// B and a vertex nearer than 2^-50 px are one point: their coordinates relative to the sample carry two
+/// roundings.
 constexpr double kOnePoint2 = 0x1p-100;
 
 struct Ends {

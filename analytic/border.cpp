@@ -17,9 +17,11 @@ struct Cluster {
     std::size_t first, last;
 };
 
-/// Fills `reaches_back`: how far down this crossing or a later one may lie.
-void noteDoubts(Crossings& c) {
+/// No doubt is taken to be larger than `limit`. Fills `reaches_back`: how far down this crossing or a later
+/// one may lie.
+void noteDoubts(Crossings& c, double limit) {
     double low = HUGE_VAL;
+    for (BorderCrossing& x : c) x.doubt = std::min(x.doubt, limit);
     for (auto x = c.rbegin(); x != c.rend(); ++x) x->reaches_back = low = std::min(low, x->order - x->doubt);
 }
 
@@ -184,16 +186,13 @@ Owner mendEnd(Crossings& c, Cluster cluster, Owner label, std::optional<Owner> n
 
 }  // namespace
 
-int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>& shares) {
-    shares.clear();
-    if (c.empty()) {
-        shares.push_back({base, kWhole});
-        return 0;
-    }
-    sortCrossings(c);
-    if (circle) cutInLongestGap(c);
-    noteDoubts(c);
-    const Owner start = firstLabel(c, base, circle);
+namespace {
+
+/// Puts the labels in order; `first` becomes the label before the first crossing. Returns the conflicts, and
+/// as many more as crossings were found missing.
+int orderLabels(Crossings& c, bool circle, Owner base, double limit, Owner& first_label) {
+    noteDoubts(c, limit);
+    const Owner start = first_label = firstLabel(c, base, circle);
     Owner label = start;
     int conflicts = 0;
     for (std::size_t first = 0; first < c.size();) {
@@ -210,10 +209,41 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
             label = mendEnd(c, cluster, label, labelAfter(c, cluster, circle, start));
     }
     if (circle && label != start) ++conflicts;
+    return conflicts;
+}
+
+bool chains(const Crossings& c) {
+    for (std::size_t i = 0; i + 1 < c.size(); ++i)
+        if (c[i].after != c[i + 1].before) return false;
+    return true;
+}
+
+}  // namespace
+
+int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>& shares) {
+    // Near a tangent much may be doubted, and then more labels change places than need to: so first as if
+    // little were.
+    constexpr double kLittle = 0x1p-46;
+    shares.clear();
+    if (c.empty()) {
+        shares.push_back({base, kWhole});
+        return 0;
+    }
+    sortCrossings(c);
+    if (circle) cutInLongestGap(c);
+    const bool much =
+        std::any_of(c.begin(), c.end(), [](const BorderCrossing& x) { return x.doubt > kLittle; });
+    const Crossings doubted = much ? c : Crossings();
+    Owner start = base;
+    int conflicts = orderLabels(c, circle, base, much ? kLittle : HUGE_VAL, start);
+    if (much && (conflicts != 0 || !chains(c))) {
+        c = doubted;
+        conflicts = orderLabels(c, circle, base, HUGE_VAL, start);
+    }
     shares.push_back({start, circle ? 0 : c.front().position});
     for (std::size_t i = 0; i + 1 < c.size(); ++i)
         shares.push_back({c[i].after, c[i + 1].position - c[i].position});
-    shares.push_back({label, (circle ? c.front().position + kWhole : kWhole) - c.back().position});
+    shares.push_back({c.back().after, (circle ? c.front().position + kWhole : kWhole) - c.back().position});
     return conflicts;
 }
 
