@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "pipeline/error.h"
 #include "pipeline/load_gltf.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
@@ -20,6 +21,14 @@ struct TimedResult {
     double seconds = 0.0;
 };
 
+/// Stops what takes too long.
+struct Deadline : Progress {
+    explicit Deadline(double limit_seconds) : limit(limit_seconds) {}
+    bool cancelled() override { return std::chrono::steady_clock::now() - start > limit; }
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> limit;  ///< may be infinite
+};
+
 /// One scene, ready to be rendered again and again.
 class Subject {
   public:
@@ -30,12 +39,13 @@ class Subject {
         camera_ = resolveCamera(scene_, camera, film_);
     }
 
+    /// Throws Interrupted past the limit.
     TimedResult render(const std::string& forced) const {
         RenderOptions options;
         options.threads = options_.threads;
         options.memory_mib = 1 << 16;  // one band: the study is about omissions
         if (!forced.empty()) options.no_skip.insert(forced);
-        Progress progress;
+        Deadline progress(forced.empty() ? HUGE_VAL : options_.limit_seconds);
         TimedResult timed;
         const auto start = std::chrono::steady_clock::now();
         timed.result =
@@ -63,6 +73,18 @@ bool leavesOut(const MethodResult& result, const std::string& omission) {
     return omission == "all" ||
            std::any_of(result.plan.begin(), result.plan.end(),
                        [&](const PlanEntry& entry) { return entry.stage == omission && !entry.runs; });
+}
+
+OmissionCost warmUp(const Subject& subject, const MethodResult& by_default, const std::string& omission) {
+    OmissionCost cost;
+    cost.name = omission;
+    cost.fires = leavesOut(by_default, omission);
+    try {
+        cost.difference = largestDifference(by_default.image, subject.render(omission).result.image);
+    } catch (const Interrupted&) {
+        cost.over_limit = true;
+    }
+    return cost;
 }
 
 /// Stage times of many runs, kept in the order in which the stages first came.
@@ -125,16 +147,13 @@ SceneCosts measureScene(const std::string& name, const StudyOptions& options) {
     StageSamples stages;
     std::vector<double> totals;
     for (const std::string& omission : options.omissions) {
-        OmissionCost cost;
-        cost.name = omission;
-        cost.fires = leavesOut(by_default, omission);
-        cost.difference = largestDifference(by_default.image, subject.render(omission).result.image);
+        OmissionCost cost = warmUp(subject, by_default, omission);
         std::vector<double> with, without;
         for (int run = 0; run < options.runs; ++run) {
             const TimedResult plain = subject.render("");
             with.push_back(plain.seconds);
             stages.add(plain.result.stages);
-            without.push_back(subject.render(omission).seconds);
+            if (!cost.over_limit) without.push_back(subject.render(omission).seconds);
         }
         totals.insert(totals.end(), with.begin(), with.end());
         cost.with = Seconds(with), cost.without = Seconds(without);

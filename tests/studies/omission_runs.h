@@ -15,8 +15,9 @@ struct StudyOptions {
     std::vector<std::string> scenes;  ///< names or files
     std::vector<std::string> omissions;
     int width = 1024, height = 1024;
-    int runs = 5;     ///< of either kind, after one warm-up of each
-    int threads = 0;  ///< 0: all
+    int runs = 5;                 ///< of either kind, after one warm-up of each
+    int threads = 0;              ///< 0: all
+    double limit_seconds = 60.0;  ///< of a run without an omission: then it is stopped, and not run again
     Prefilter filter;
 };
 
@@ -32,8 +33,9 @@ struct Seconds {
 
 struct OmissionCost {
     std::string name;
-    bool fires = false;  ///< the plan leaves it out on this scene
-    Seconds with, without;
+    bool fires = false;     ///< the plan leaves it out on this scene
+    Seconds with, without;  ///< without: empty where the limit was met
+    bool over_limit = false;
     double difference = 0.0;  ///< largest, of any channel of any pixel
 
     double savedPercent() const { return 100.0 * (1.0 - with.median() / without.median()); }

@@ -23,6 +23,16 @@ std::string stageRow(const SceneCosts& costs) {
         costs.counts.at("segments"), costs.counts.at("terms"), costs.peak_mib);
 }
 
+std::string omissionRow(const SceneCosts& costs, const OmissionCost& cost, double limit_seconds) {
+    const std::string name = cost.fires ? cost.name : "(" + cost.name + ")";
+    const double with = cost.with.median(), noise = percent(cost.with.interquartile(), with);
+    if (cost.over_limit)
+        return fmt::format("| {} | {} | {:.4f} | > {:.0f} | > {:.1f} | {:.1f} | |\n", costs.scene, name, with,
+                           limit_seconds, 100.0 - percent(with, limit_seconds), noise);
+    return fmt::format("| {} | {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1e} |\n", costs.scene, name, with,
+                       cost.without.median(), cost.savedPercent(), noise, cost.difference);
+}
+
 }  // namespace
 
 std::string describeStudy(const StudyOptions& options) {
@@ -32,7 +42,7 @@ std::string describeStudy(const StudyOptions& options) {
         options.threads > 0 ? std::to_string(options.threads) : "all", options.runs);
 }
 
-std::string omissionTable(const std::vector<SceneCosts>& scenes) {
+std::string omissionTable(const std::vector<SceneCosts>& scenes, const StudyOptions& options) {
     std::string text =
         "`with`: the planner's omission; `without`: --no-skip. `noise`: interquartile range of the default "
         "runs, of "
@@ -41,10 +51,7 @@ std::string omissionTable(const std::vector<SceneCosts>& scenes) {
         "| --- | --- | --- | --- | --- | --- | --- |\n";
     for (const SceneCosts& costs : scenes)
         for (const OmissionCost& cost : costs.omissions)
-            text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {:.1f} | {:.1f} | {:.1e} |\n", costs.scene,
-                                cost.fires ? cost.name : "(" + cost.name + ")", cost.with.median(),
-                                cost.without.median(), cost.savedPercent(),
-                                percent(cost.with.interquartile(), cost.with.median()), cost.difference);
+            text += omissionRow(costs, cost, options.limit_seconds);
     return text + "\n";
 }
 

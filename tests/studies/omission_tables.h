@@ -9,7 +9,7 @@ namespace edgewise::study {
 std::string describeStudy(const StudyOptions& options);
 
 /// scene | omission | median seconds with and without | saved | noise | largest difference
-std::string omissionTable(const std::vector<SceneCosts>& scenes);
+std::string omissionTable(const std::vector<SceneCosts>& scenes, const StudyOptions& options);
 
 /// scene | each stage's share, beside what the paper says | work and memory
 std::string stageTable(const std::vector<SceneCosts>& scenes);

@@ -18,6 +18,7 @@ struct Arguments {
     std::vector<std::string> scenes, omissions, filters{"box", "gaussian"};
     std::string size = "1024x1024", output;
     int runs = 5, threads = 0;
+    double limit = 60.0;
 };
 
 std::vector<std::string> everyScene() {
@@ -45,6 +46,11 @@ void addOptions(CLI::App& program, Arguments& arguments) {
     program.add_option("--threads", arguments.threads, "0: all")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
+    program
+        .add_option("--limit", arguments.limit,
+                    "seconds of a run without an omission, which is then given up")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     program.add_option("-o,--output", arguments.output, "a file for the tables beside standard output");
 }
 
@@ -54,6 +60,7 @@ StudyOptions readOptions(const Arguments& arguments, const std::string& filter) 
     options.omissions = arguments.omissions.empty() ? everyOmission() : arguments.omissions;
     options.runs = arguments.runs;
     options.threads = arguments.threads;
+    options.limit_seconds = arguments.limit;
     options.filter = makePrefilter(filter, {}, {});
     int used = 0;
     if (std::sscanf(arguments.size.c_str(), "%dx%d%n", &options.width, &options.height, &used) != 2 ||
@@ -74,7 +81,7 @@ std::string study(const StudyOptions& options, const std::function<void(const st
         } catch (const std::runtime_error& error) {
             failures += fmt::format("{}: {}\n\n", scene, error.what());
         }
-        text = "## " + describeStudy(options) + omissionTable(costs) + stageTable(costs) + failures;
+        text = "## " + describeStudy(options) + omissionTable(costs, options) + stageTable(costs) + failures;
         keep(text);
     }
     return text;
