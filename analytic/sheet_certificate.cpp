@@ -109,12 +109,21 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
     }
 }
 
-/// A row starts with the left owner of its first crossing; without one, a single triangle holds all of it.
-void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame,
-                                std::span<const std::uint32_t> triangles, CellOutput& out) {
+/// Sorts the crossings. False where rounding exchanged the ends of a thin triangle on a row: its labels do not chain.
+bool SheetCertificate::sortRows() {
     std::sort(crossings_.begin(), crossings_.end(), [](const RowCrossing& a, const RowCrossing& b) {
         return std::tie(a.row, a.x, a.slope) < std::tie(b.row, b.x, b.slope);
     });
+    for (std::size_t k = 0; k + 1 < crossings_.size(); ++k) {
+        const RowCrossing &a = crossings_[k], &b = crossings_[k + 1];
+        if (a.row == b.row && a.after != b.before) return false;
+    }
+    return true;
+}
+
+/// A row starts with the left owner of its first crossing; without one, a single triangle holds all of it.
+void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame,
+                                std::span<const std::uint32_t> triangles, CellOutput& out) {
     const double start = frame.cell.min.x + kBorderRestPx,
                  middle = 0.5 * (frame.cell.min.x + frame.cell.max.x);
     auto next = crossings_.begin();
@@ -147,7 +156,12 @@ bool SheetCertificate::run(const ScreenScene& scene, const Cell& cell, glm::dvec
         return false;
     const CellFrame frame(cell, origin);
     crossings_.clear();
+    const std::size_t emitted = out.segments.size();
     for (const SharedEdge& edge : edges_) emitEdge(scene, frame, edge, out);
+    if (!sortRows()) {
+        out.segments.resize(emitted);
+        return false;
+    }
     emitRows(scene, frame, triangles, out);
     ++out.counts.certified;
     return true;

@@ -29,6 +29,7 @@ class SheetCertificate {
     bool pairEdges(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> triangles);
     bool enter(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t k);
     void emitEdge(const ScreenScene& scene, const CellFrame& frame, const SharedEdge& edge, CellOutput& out);
+    bool sortRows();
     void emitRows(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
                   CellOutput& out);
 

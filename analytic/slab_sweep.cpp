@@ -281,8 +281,11 @@ void SlabSweep::State::emitRows(std::size_t slab) {
         const OrderKey key = orderKey(y, origin.y);
         if (key < leaf.keys[slab] || key >= leaf.keys[slab + 1]) continue;
         out->rows.push_back({row, below.first, cell.min.x + kBorderRestPx});
-        for (const Bound& b : below.bounds)
-            out->rows.push_back({row, b.after, origin.x + leaf.lines[b.line].xAt(leaf.frame, y)});
+        double reached = cell.min.x + kBorderRestPx;  // rounding must not exchange the ends of a thin owner
+        for (const Bound& b : below.bounds) {
+            reached = std::max(reached, origin.x + leaf.lines[b.line].xAt(leaf.frame, y));
+            out->rows.push_back({row, b.after, reached});
+        }
     }
 }
 
