@@ -109,7 +109,8 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
     }
 }
 
-/// Sorts the crossings. False where rounding exchanged the ends of a thin triangle on a row: its labels do not chain.
+/// Sorts the crossings. False where rounding exchanged the ends of a thin triangle on a row: its labels do
+/// not chain.
 bool SheetCertificate::sortRows() {
     std::sort(crossings_.begin(), crossings_.end(), [](const RowCrossing& a, const RowCrossing& b) {
         return std::tie(a.row, a.x, a.slope) < std::tie(b.row, b.x, b.slope);
