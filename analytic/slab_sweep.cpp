@@ -45,7 +45,35 @@ struct Break {
     double x;
     Kind kind;
     std::uint32_t index;  ///< of the line, or of the horizontal
-    Owner after;
+    Owner before, after;
+};
+
+/// How often each owner lies above an ordinate, less how often below. Where lines end out of order, one place
+/// counts several owners: their boundaries close all the same.
+class OwnerBalance {
+  public:
+    void clear() { counts_.clear(); }
+    void add(Owner owner, int by) {
+        const auto known = std::find_if(counts_.begin(), counts_.end(),
+                                        [owner](const auto& entry) { return entry.first == owner; });
+        if (known == counts_.end())
+            counts_.emplace_back(owner, by);
+        else if ((known->second += by) == 0)
+            counts_.erase(known);
+    }
+    bool empty() const { return counts_.empty(); }
+    /// The counts as pairs of one owner above and one below; the counts sum to 0.
+    void pairs(std::vector<std::pair<Owner, Owner>>& out) const {
+        out.clear();
+        for (const auto& [owner, count] : counts_)
+            for (int k = 0; k < count; ++k) out.emplace_back(owner, owner);
+        std::size_t next = 0;
+        for (const auto& [owner, count] : counts_)
+            for (int k = 0; k < -count; ++k) out[next++].second = owner;
+    }
+
+  private:
+    std::vector<std::pair<Owner, int>> counts_;
 };
 
 }  // namespace
@@ -63,6 +91,8 @@ struct SlabSweep::State {
     std::vector<std::uint64_t> mask;
     Profile above, below;
     std::vector<Break> breaks;
+    OwnerBalance balance;
+    std::vector<std::pair<Owner, Owner>> over_under;
     double y_mid = 0.0;  ///< of the slab, from the origin
     std::size_t next_entry, next_event, next_horizontal;
 
@@ -298,12 +328,12 @@ bool SlabSweep::State::sameProfiles() const {
 }
 
 void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab) {
-    double reached = leftBorder();
+    Owner before = profile.first;
     for (const Bound& b : profile.bounds) {
         const bool ended = leaf.lines[b.line].in1 == leaf.keys[slab];
         const double x = ended ? leaf.frame.localX(leaf.lines[b.line].exit) : tracks[b.line].x_top;
-        reached = std::clamp(x, reached, rightBorder());
-        breaks.push_back({reached, kind, b.line, b.after});
+        breaks.push_back({std::clamp(x, leftBorder(), rightBorder()), kind, b.line, before, b.after});
+        before = b.after;
     }
 }
 
@@ -335,23 +365,30 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     breaks.clear();
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const auto index = static_cast<std::uint32_t>(h);
-        breaks.push_back({leaf.horizontals[h].x_low, Break::kLow, index, kBackground});
-        breaks.push_back({leaf.horizontals[h].x_high, Break::kHigh, index, kBackground});
+        breaks.push_back({leaf.horizontals[h].x_low, Break::kLow, index, kBackground, kBackground});
+        breaks.push_back({leaf.horizontals[h].x_high, Break::kHigh, index, kBackground, kBackground});
     }
     addBreaks(above, Break::kAbove, slab);
     addBreaks(below, Break::kBelow, slab);
-    breaks.push_back({leftBorder(), Break::kLeftBorder, 0, kBackground});
-    breaks.push_back({rightBorder(), Break::kRightBorder, 0, kBackground});
+    breaks.push_back({leftBorder(), Break::kLeftBorder, 0, kBackground, kBackground});
+    breaks.push_back({rightBorder(), Break::kRightBorder, 0, kBackground, kBackground});
     std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
-    Owner over = above.first, under = below.first;
+    balance.clear();
+    balance.add(above.first, 1);
+    balance.add(below.first, -1);
     for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
         // Of equal ones the end of a horizontal names the point, else the line at which the owner changed
         // last.
         const bool named = breaks[start].kind == Break::kLow || breaks[start].kind == Break::kHigh;
         if (breaks[i].x != breaks[start].x || !named) start = i;
-        if (breaks[i].kind == Break::kAbove) over = breaks[i].after;
-        if (breaks[i].kind == Break::kBelow) under = breaks[i].after;
-        if (over != under && breaks[i].x < breaks[i + 1].x)
+        if (breaks[i].kind == Break::kAbove || breaks[i].kind == Break::kBelow) {
+            const int sign = breaks[i].kind == Break::kAbove ? 1 : -1;
+            balance.add(breaks[i].after, sign);
+            balance.add(breaks[i].before, -sign);
+        }
+        if (balance.empty() || breaks[i].x >= breaks[i + 1].x) continue;
+        balance.pairs(over_under);
+        for (const auto& [over, under] : over_under)
             emitHorizontal(breaks[start], breaks[i + 1], over, under, first, slab);
     }
 }

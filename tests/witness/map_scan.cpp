@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "tests/witness/dice.h"
@@ -41,22 +42,27 @@ Real roundingOf(Real reach, Real slope) {
     return 8 * reach * (1 + std::fabs(slope)) * 0x1p-64L;
 }
 
-/// The owner that is left of all crossings. Crossings closer than rounding may stand in any order: of a
-/// cluster's labels it is the one that is left more often than entered; a cluster that changes nothing leaves
-/// the question to the next.
-Owner leftmost(const std::vector<MapCrossing>& crossings, Real radius, Owner otherwise) {
+/// The owner at -radius. Crossings closer than the map may move a line (to a vertex that it passes nearer than
+/// 2^-40 px) may stand in any order: of a cluster's labels it is the one that is left more often than entered;
+/// a cluster that changes nothing leaves the question to the next. Beyond the radius nothing is judged, so a
+/// crossing there is asked only where there is none within.
+Owner ownerAtStart(const std::vector<MapCrossing>& crossings, Real radius, Owner otherwise) {
+    constexpr Real kCluster = 0x1p-39L;
     std::map<Owner, int> net;
-    Real end = crossings.front().u;
+    const auto left = [&net] {
+        return std::find_if(net.begin(), net.end(), [](const auto& entry) { return entry.second < 0; });
+    };
+    Real end = -std::numeric_limits<Real>::infinity();
     for (const MapCrossing& c : crossings) {
-        if (c.u > end)
-            for (const auto& [owner, count] : net)
-                if (count < 0) return owner;
+        if (c.u <= -radius) {
+            otherwise = c.right;
+            continue;
+        }
+        if (c.u > end && left() != net.end()) break;
         --net[c.left], ++net[c.right];
-        end = std::max(end, c.u + 2 * roundingOf(std::max(radius, std::fabs(c.u)), c.slope));
+        end = std::max(end, c.u + kCluster * (1 + std::fabs(c.slope)));
     }
-    for (const auto& [owner, count] : net)
-        if (count < 0) return owner;
-    return otherwise;
+    return left() != net.end() ? left()->first : otherwise;
 }
 
 Owner runOwner(const std::vector<Run>& runs, Real u) {
@@ -119,8 +125,9 @@ void MapScan::compare(const LocalScene& scene, Real v, Real height, Real radius,
     for (const MapCrossing& c : crossings)
         if (std::fabs(c.u) < radius) cuts.push_back(c.u);
     std::sort(cuts.begin(), cuts.end());
-    Front front(crossings.empty() ? runs.front().owner : leftmost(crossings, radius, runs.front().owner));
+    Front front(ownerAtStart(crossings, radius, runs.front().owner));
     std::size_t next = 0;
+    while (next < crossings.size() && crossings[next].u <= -radius) ++next;
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         const Real length = cuts[k + 1] - cuts[k], middle = (cuts[k] + cuts[k + 1]) / 2;
         if (length <= 0) continue;
