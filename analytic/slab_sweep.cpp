@@ -395,7 +395,11 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
 
 void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
                                       std::size_t first, std::size_t slab) {
-    const FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
+    FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
+    // Abscissae that one rounding of a double separates may stand in the other order exactly.
+    const glm::dvec2 across{high.grid.x - low.grid.x, high.rest.x - low.rest.x};
+    if (across.x + across.y == 0.0) return;
+    if (across.x + across.y < 0.0) std::swap(low, high), std::swap(over, under);
     const auto emit = [&](std::uint64_t line_key, LineRef line, FineCoordinate y) {
         out->segments.push_back(
             {line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});

@@ -28,7 +28,8 @@ std::string checkSegments(const VisibleMap& map) {
         if (!finite(s.a) || !finite(s.b) || !std::isfinite(s.length)) return "a segment is not finite";
         if (s.left == s.right) return fmt::format("a segment has owner {} on both sides", s.left);
         if (s.line >= map.lines.size()) return "a segment lies on no line";
-        if (s.b.grid.y + s.b.rest.y < s.a.grid.y + s.a.rest.y) return "a segment runs against its line";
+        const glm::dvec2 run = (s.b.grid - s.a.grid) + (s.b.rest - s.a.rest);
+        if (run.y < 0 || (run.y == 0 && run.x > 0)) return "a segment runs against its line";
     }
     return {};
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "tests/witness/dice.h"
 #include "tests/witness/events.h"
@@ -42,27 +43,31 @@ Real roundingOf(Real reach, Real slope) {
     return 8 * reach * (1 + std::fabs(slope)) * 0x1p-64L;
 }
 
-/// The owner at -radius. Crossings closer than the map may move a line (to a vertex that it passes nearer than
-/// 2^-40 px) may stand in any order: of a cluster's labels it is the one that is left more often than entered;
-/// a cluster that changes nothing leaves the question to the next. Beyond the radius nothing is judged, so a
-/// crossing there is asked only where there is none within.
+/// The owner at -radius. Crossings closer than the map may move a line (to a vertex that it passes nearer
+/// than 2^-40 px) may stand in any order: of a cluster's labels the owner before it is the one that is left
+/// more often than entered, the owner behind it the one that is entered more often than left; a cluster that
+/// changes nothing leaves the question to the next. The first cluster within the radius is asked first, since
+/// nothing beyond is judged; where there is none, the last one before it; else the first one behind it.
 Owner ownerAtStart(const std::vector<MapCrossing>& crossings, Real radius, Owner otherwise) {
     constexpr Real kCluster = 0x1p-39L;
-    std::map<Owner, int> net;
-    const auto left = [&net] {
-        return std::find_if(net.begin(), net.end(), [](const auto& entry) { return entry.second < 0; });
-    };
-    Real end = -std::numeric_limits<Real>::infinity();
-    for (const MapCrossing& c : crossings) {
-        if (c.u <= -radius) {
-            otherwise = c.right;
-            continue;
+    std::optional<Owner> reached;
+    for (std::size_t k = 0; k < crossings.size();) {
+        const bool beyond = crossings[k].u <= -radius;
+        if (reached && crossings[k].u >= radius) return *reached;
+        std::map<Owner, int> net;
+        Real end = crossings[k].u;
+        for (; k < crossings.size() && crossings[k].u <= end && (crossings[k].u <= -radius) == beyond; ++k) {
+            --net[crossings[k].left], ++net[crossings[k].right];
+            end = std::max(end, crossings[k].u + kCluster * (1 + std::fabs(crossings[k].slope)));
         }
-        if (c.u > end && left() != net.end()) break;
-        --net[c.left], ++net[c.right];
-        end = std::max(end, c.u + kCluster * (1 + std::fabs(c.slope)));
+        const int asked = beyond ? 1 : -1;
+        for (const auto& [owner, count] : net) {
+            if (count * asked <= 0) continue;
+            if (!beyond) return owner;
+            reached = owner;
+        }
     }
-    return left() != net.end() ? left()->first : otherwise;
+    return reached.value_or(otherwise);
 }
 
 Owner runOwner(const std::vector<Run>& runs, Real u) {
