@@ -55,6 +55,9 @@ class MaterialReader {
         for (int i = 0; i < 4; ++i) material.base_color[i] = pbr.baseColorFactor[static_cast<std::size_t>(i)];
         material.unlit = from.extensions.contains("KHR_materials_unlit");
         material.double_sided = from.doubleSided;
+        material.alpha_cutoff = from.alphaCutoff;
+        if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::kMask;
+        if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::kBlend;
         if (used && pbr.baseColorTexture.index >= 0) readTexture(pbr.baseColorTexture, material);
         return material;
     }
@@ -65,8 +68,8 @@ class MaterialReader {
         if (info.texCoord > 1)
             return countIgnored(scene_, "textures with texture coordinates beyond TEXCOORD_1");
         if (from.source < 0) return countIgnored(scene_, "textures without an image of a known format");
-        material.base_color_uv = info.texCoord;
-        material.base_color_texture = texture(info.index, from);
+        material.base_color_map.uv = info.texCoord;
+        material.base_color_map.texture = texture(info.index, from);
     }
 
     std::uint32_t texture(int index, const tinygltf::Texture& from) {

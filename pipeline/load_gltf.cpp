@@ -197,8 +197,8 @@ class SceneReader {
     void fillMissingUv() {
         for (Geometry& geometry : scene_.geometry) {
             const Material& material = scene_.materials[geometry.material];
-            auto& uv = geometry.uv[static_cast<std::size_t>(material.base_color_uv)];
-            if (material.base_color_texture != kNone && uv.empty()) uv.resize(geometry.position_world.size());
+            auto& uv = geometry.uv[static_cast<std::size_t>(material.base_color_map.uv)];
+            if (material.base_color_map.present() && uv.empty()) uv.resize(geometry.position_world.size());
         }
     }
 

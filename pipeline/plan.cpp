@@ -9,29 +9,29 @@
 namespace edgewise {
 namespace {
 
-struct ColorHash {
-    std::size_t operator()(const glm::dvec3& c) const {
+struct ShadeHash {
+    std::size_t operator()(const Shade& s) const {
         std::uint64_t h = 0;
-        for (glm::length_t k = 0; k < 3; ++k)
-            h = (h ^ std::bit_cast<std::uint64_t>(c[k] + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 31;
+        for (const double value : {s.color.r, s.color.g, s.color.b, s.alpha})
+            h = (h ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 31;
         return h;
     }
 };
 
-std::vector<std::optional<glm::dvec3>> constantColors(const ScreenPieces& pieces, const Shading& shading) {
-    std::vector<std::optional<glm::dvec3>> colors(pieces.first.size() - 1);
-    tbb::parallel_for(std::size_t{0}, colors.size(), [&](std::size_t i) {
+std::vector<std::optional<Shade>> constantShades(const ScreenPieces& pieces, const Shading& shading) {
+    std::vector<std::optional<Shade>> shades(pieces.first.size() - 1);
+    tbb::parallel_for(std::size_t{0}, shades.size(), [&](std::size_t i) {
         const auto owner = static_cast<Owner>(i);
-        if (pieces.first[i] != pieces.first[i + 1]) colors[i] = shading.constant(owner);
+        if (pieces.first[i] != pieces.first[i + 1]) shades[i] = shading.constant(owner);
     });
-    return colors;
+    return shades;
 }
 
 /// Owners of one constant colour are represented by the lowest of them.
-OwnerClasses classesOf(const std::vector<std::optional<glm::dvec3>>& constant, std::size_t& merged,
+OwnerClasses classesOf(const std::vector<std::optional<Shade>>& constant, std::size_t& merged,
                        std::size_t& classes) {
     OwnerClasses out;
-    std::unordered_map<glm::dvec3, Owner, ColorHash> first;
+    std::unordered_map<Shade, Owner, ShadeHash> first;
     out.representative.resize(constant.size());
     for (std::size_t i = 0; i < constant.size(); ++i) {
         const auto owner = static_cast<Owner>(i);
@@ -46,7 +46,7 @@ OwnerClasses classesOf(const std::vector<std::optional<glm::dvec3>>& constant, s
 std::string fetchReason(const Scene& scene) {
     std::size_t textured = 0, unlit = 0;
     for (const Material& m : scene.materials) {
-        textured += m.base_color_texture != kNone;
+        textured += m.base_color_map.present();
         unlit += m.unlit;
     }
     return fmt::format("{} of {} materials have a texture, {} are unlit", textured, scene.materials.size(),
@@ -85,7 +85,7 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
         add("interior", false, "for supports without segments: the owner there has all the weight");
 
     std::size_t merged = 0, classes = 0;
-    plan.constant = constantColors(pieces, shading);
+    plan.constant = constantShades(pieces, shading);
     OwnerClasses by_color = classesOf(plan.constant, merged, classes);
     const bool cancel = !by_color.representative.empty();
     const std::string cancel_why = cancel ? fmt::format(

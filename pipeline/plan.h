@@ -15,8 +15,8 @@ struct Plan {
     std::vector<PlanEntry> entries;
     VisibilityStageOptions visibility;
     WeightOptions weights;
-    OwnerClasses classes;                             ///< empty where nothing cancels
-    std::vector<std::optional<glm::dvec3>> constant;  ///< by owner; empty where every colour is fetched
+    OwnerClasses classes;                        ///< empty where nothing cancels
+    std::vector<std::optional<Shade>> constant;  ///< by owner; empty where every colour is fetched
 };
 
 /// Names that --no-skip takes.

@@ -30,11 +30,33 @@ struct Texture {
     std::optional<TexelFilter> mip = TexelFilter::kLinear;  ///< none: level 0 only
 };
 
+/// A texture as one slot of a material uses it.
+struct TextureUse {
+    std::uint32_t texture = kNone;  ///< into Scene::textures
+    int uv = 0;                     ///< TEXCOORD_0 or _1
+    /// The texture's (u, v, 1) from the vertex's: KHR_texture_transform, identity without it.
+    glm::dmat3 uv_from_vertex{1.0};
+
+    bool present() const { return texture != kNone; }
+};
+
+enum class AlphaMode { kOpaque, kMask, kBlend };
+
+/// glTF 2.0's metallic-roughness material; factors and colours are linear.
 struct Material {
     std::string name;
     glm::dvec4 base_color{1.0};
-    std::uint32_t base_color_texture = kNone;  ///< into Scene::textures
-    int base_color_uv = 0;
+    TextureUse base_color_map;  ///< sRGB colours, linear alpha
+    double metallic = 1.0, roughness = 1.0;
+    TextureUse metallic_roughness_map;  ///< green: roughness, blue: metallic
+    TextureUse normal_map;
+    double normal_scale = 1.0;
+    TextureUse occlusion_map;  ///< red: how much of the ambient light arrives
+    double occlusion_strength = 1.0;
+    glm::dvec3 emissive{0.0};  ///< times KHR_materials_emissive_strength
+    TextureUse emissive_map;   ///< sRGB
+    AlphaMode alpha_mode = AlphaMode::kOpaque;
+    double alpha_cutoff = 0.5;  ///< mask: seen where alpha is this or more
     bool unlit = false;
     bool double_sided = false;
 };
@@ -45,6 +67,8 @@ struct Geometry {
     std::vector<glm::vec3> position_file;
     std::vector<glm::dvec3> position_world;
     std::vector<glm::dvec3> normal_world;  ///< not normalised; empty: flat normals
+    /// TANGENT: direction in world space, not normalised, and the bitangent's sign.
+    std::vector<glm::dvec4> tangent_world;
     /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken
     /// through it from the file's exact planes. None: through the rounded world positions.
     std::optional<glm::dmat4> world_from_file;
@@ -68,6 +92,21 @@ struct Camera {
     std::optional<double> zfar;  ///< none: infinite
 };
 
+/// KHR_lights_punctual. Lights shine along -z of their node; its scale does not count.
+struct Light {
+    enum class Type { kDirectional, kPoint, kSpot };
+    std::string name;
+    std::uint32_t node = kNone;
+    Type type = Type::kPoint;
+    glm::dvec3 color{1.0};                         ///< linear
+    double intensity = 1.0;                        ///< candela; directional: lux
+    std::optional<double> range;                   ///< beyond it no light arrives
+    double inner_cone_angle = 0.0;                 ///< radians; spot
+    double outer_cone_angle = 0.7853981633974483;  ///< radians; spot
+    glm::dvec3 position_world{0.0};
+    glm::dvec3 direction_world{0.0, 0.0, -1.0};  ///< unit, the way the light travels
+};
+
 /// One warning the user sees once: what the file uses and edgewise ignores.
 struct Ignored {
     std::string what;
@@ -81,6 +120,7 @@ struct Scene {
     std::vector<Texture> textures;    ///< those that drawn materials use; never without an image
     std::vector<Image> images;
     std::vector<Camera> cameras;  ///< camera nodes in depth-first order
+    std::vector<Light> lights;    ///< in depth-first order of their nodes; none: the default rig
     std::vector<std::string> node_names, mesh_names;
     std::vector<Ignored> ignored;
     std::size_t triangle_count = 0;

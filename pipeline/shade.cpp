@@ -85,8 +85,8 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
       pyramids_(scene.images.size()) {
     std::vector<std::uint32_t> used;
     for (const Material& material : scene.materials)
-        if (material.base_color_texture != kNone)
-            used.push_back(scene.textures[material.base_color_texture].image);
+        if (material.base_color_map.present())
+            used.push_back(scene.textures[material.base_color_map.texture].image);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::erase(used, kNone);
@@ -150,60 +150,77 @@ glm::dvec3 Shading::normalAt(const Surface& surface, const glm::dvec3& w) const 
 
 const MipPyramid* Shading::pyramidOf(const Surface& surface) const {
     const Material& material = *surface.material;
-    if (material.base_color_texture == kNone || surface.geometry->uv[material.base_color_uv].empty())
+    if (!material.base_color_map.present() || surface.geometry->uv[material.base_color_map.uv].empty())
         return nullptr;
-    const std::uint32_t image = scene_.textures[material.base_color_texture].image;
+    const std::uint32_t image = scene_.textures[material.base_color_map.texture].image;
     return image == kNone ? nullptr : &*pyramids_[image];
 }
 
-glm::dvec3 Shading::textureAt(const Surface& surface, const Location& at) const {
-    const auto& uv = surface.geometry->uv[surface.material->base_color_uv];
+glm::dvec4 Shading::textureAt(const Surface& surface, const Location& at) const {
+    const auto& uv = surface.geometry->uv[surface.material->base_color_map.uv];
     const TextureFootprint footprint{interpolate(uv, surface.vertex, at.d_dx),
                                      interpolate(uv, surface.vertex, at.d_dy)};
-    return sampleTexture(scene_.textures[surface.material->base_color_texture], *pyramidOf(surface),
+    return sampleTexture(scene_.textures[surface.material->base_color_map.texture], *pyramidOf(surface),
                          interpolate(uv, surface.vertex, at.barycentric), footprint);
 }
 
-std::optional<glm::dvec3> Shading::constantBase(const Surface& surface) const {
+/// Opaque materials ignore alpha; a mask is there or not.
+double Shading::alphaOf(const Surface& surface, double base_alpha) const {
+    switch (surface.material->alpha_mode) {
+        case AlphaMode::kMask:
+            return base_alpha >= surface.material->alpha_cutoff ? 1.0 : 0.0;
+        case AlphaMode::kBlend:
+            return std::clamp(base_alpha, 0.0, 1.0);
+        default:
+            return 1.0;
+    }
+}
+
+std::optional<glm::dvec4> Shading::constantBase(const Surface& surface) const {
     const Geometry& geometry = *surface.geometry;
-    glm::dvec3 base(surface.material->base_color);
-    if (base == glm::dvec3(0.0)) return base;
+    glm::dvec4 base = surface.material->base_color;
+    const bool opaque = surface.material->alpha_mode == AlphaMode::kOpaque;
+    if (glm::dvec3(base) == glm::dvec3(0.0) && (opaque || base.a == 0.0)) return base;
     if (const MipPyramid* pyramid = pyramidOf(surface)) {
         if (!pyramid->uniform()) return std::nullopt;
         base *= *pyramid->uniform();
     }
     if (geometry.color.empty()) return base;
     if (!sameAtCorners(geometry.color, surface.vertex)) return std::nullopt;
-    return base * glm::dvec3(geometry.color[surface.vertex[0]]);
+    return base * geometry.color[surface.vertex[0]];
 }
 
-std::optional<glm::dvec3> Shading::constant(const Surface& surface) const {
+std::optional<Shade> Shading::constant(const Surface& surface) const {
     const auto base = constantBase(surface);
-    if (!base || surface.material->unlit || *base == glm::dvec3(0.0)) return base;
+    if (!base) return std::nullopt;
+    const glm::dvec3 color(*base);
+    const double alpha = alphaOf(surface, base->a);
+    if (surface.material->unlit || color == glm::dvec3(0.0)) return Shade{color, alpha};
     const auto& normals = surface.geometry->normal_world;
-    if (normals.empty()) return *base * rigLight(flatNormal(surface));
+    if (normals.empty()) return Shade{color * rigLight(flatNormal(surface)), alpha};
     if (!sameAtCorners(normals, surface.vertex)) return std::nullopt;
-    return *base * rigLight(cornerNormal(surface, 0));
+    return Shade{color * rigLight(cornerNormal(surface, 0)), alpha};
 }
 
-std::optional<glm::dvec3> Shading::constant(Owner owner) const {
+std::optional<Shade> Shading::constant(Owner owner) const {
     return constant(surfaceOf(owner));
 }
 
-glm::dvec3 Shading::colourAt(const Surface& surface, glm::dvec2 image_plane) const {
+Shade Shading::shadeAt(const Surface& surface, glm::dvec2 image_plane) const {
     const Location at = locate(surface, image_plane);
-    glm::dvec3 colour(surface.material->base_color);
-    if (pyramidOf(surface)) colour *= textureAt(surface, at);
+    glm::dvec4 base = surface.material->base_color;
+    if (pyramidOf(surface)) base *= textureAt(surface, at);
     if (!surface.geometry->color.empty())
-        colour *= glm::dvec3(interpolate(surface.geometry->color, surface.vertex, at.barycentric));
-    if (!surface.material->unlit) colour *= rigLight(normalAt(surface, at.barycentric));
-    return colour;
+        base *= interpolate(surface.geometry->color, surface.vertex, at.barycentric);
+    glm::dvec3 color(base);
+    if (!surface.material->unlit) color *= rigLight(normalAt(surface, at.barycentric));
+    return {color, alphaOf(surface, base.a)};
 }
 
-glm::dvec3 Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
+Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     const Surface surface = surfaceOf(owner);
-    if (const auto colour = constant(surface)) return *colour;
-    return colourAt(surface, map_.toImagePlane(p_px, glm::dvec2(0.0)));
+    if (const auto shade = constant(surface)) return *shade;
+    return shadeAt(surface, map_.toImagePlane(p_px, glm::dvec2(0.0)));
 }
 
 glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
@@ -221,10 +238,10 @@ glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
     return best;
 }
 
-glm::dvec3 Shading::closest(Owner owner, glm::dvec2 sample_px) const {
+Shade Shading::closest(Owner owner, glm::dvec2 sample_px) const {
     const Surface surface = surfaceOf(owner);
-    if (const auto colour = constant(surface)) return *colour;
-    return colourAt(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px)));
+    if (const auto shade = constant(surface)) return *shade;
+    return shadeAt(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px)));
 }
 
 }  // namespace edgewise

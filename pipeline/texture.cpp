@@ -70,13 +70,13 @@ struct LevelSampler {
     const Texture& texture;
     const Image& image;
 
-    glm::dvec3 texel(int x, int y) const {
+    glm::dvec4 texel(int x, int y) const {
         x = wrapIndex(x, image.width, texture.wrap_s);
         y = wrapIndex(y, image.height, texture.wrap_t);
-        return glm::dvec3(image.texels[std::size_t(y) * image.width + x]);
+        return glm::dvec4(image.texels[std::size_t(y) * image.width + x]);
     }
 
-    glm::dvec3 at(glm::dvec2 uv, TexelFilter filter) const {
+    glm::dvec4 at(glm::dvec2 uv, TexelFilter filter) const {
         const double x = reduce(uv.x, texture.wrap_s) * image.width,
                      y = reduce(uv.y, texture.wrap_t) * image.height;
         if (filter == TexelFilter::kNearest)
@@ -84,8 +84,8 @@ struct LevelSampler {
         const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
         const double fx = (x - 0.5) - left, fy = (y - 0.5) - top;
         const int i = static_cast<int>(left), j = static_cast<int>(top);
-        const glm::dvec3 upper = texel(i, j) * (1.0 - fx) + texel(i + 1, j) * fx;
-        const glm::dvec3 lower = texel(i, j + 1) * (1.0 - fx) + texel(i + 1, j + 1) * fx;
+        const glm::dvec4 upper = texel(i, j) * (1.0 - fx) + texel(i + 1, j) * fx;
+        const glm::dvec4 lower = texel(i, j + 1) * (1.0 - fx) + texel(i + 1, j + 1) * fx;
         return upper * (1.0 - fy) + lower * fy;
     }
 };
@@ -102,16 +102,16 @@ double levelOf(const Image& image, const TextureFootprint& footprint) {
 
 MipPyramid::MipPyramid(const Image& image) : base_(&image) {
     const auto& texels = image.texels;
-    const auto differs = [&](const glm::vec4& t) { return glm::vec3(t) != glm::vec3(texels.front()); };
+    const auto differs = [&](const glm::vec4& t) { return t != texels.front(); };
     if (std::none_of(texels.begin(), texels.end(), differs)) {
-        uniform_ = glm::dvec3(texels.front());
+        uniform_ = glm::dvec4(texels.front());
         return;
     }
     while (level(levels() - 1).width > 1 || level(levels() - 1).height > 1)
         levels_.push_back(halve(level(levels() - 1)));
 }
 
-glm::dvec3 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
+glm::dvec4 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
                          const TextureFootprint& footprint) {
     if (pyramid.uniform()) return *pyramid.uniform();
     auto at = [&](int level, TexelFilter filter) {

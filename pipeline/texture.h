@@ -20,12 +20,12 @@ class MipPyramid {
     const Image& level(int i) const { return i == 0 ? *base_ : levels_[i - 1]; }
 
     /// The colour if all texels are equal.
-    const std::optional<glm::dvec3>& uniform() const { return uniform_; }
+    const std::optional<glm::dvec4>& uniform() const { return uniform_; }
 
   private:
     const Image* base_;
     std::vector<Image> levels_;
-    std::optional<glm::dvec3> uniform_;
+    std::optional<glm::dvec4> uniform_;
 };
 
 /// How far a pixel reaches in texture space: the derivatives of (u, v) along the screen's axes.
@@ -36,7 +36,7 @@ struct TextureFootprint {
 /// The texture at uv, (0, 0) being the image's upper left corner. The level is log2 of the longer of the
 /// footprint's two sides in texels of level 0 (OpenGL's rule); at 0 and below the mag filter holds, above it
 /// the min filter. uv need not be small, but must be finite.
-glm::dvec3 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
+glm::dvec4 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
                          const TextureFootprint& footprint);
 
 }  // namespace edgewise

@@ -27,7 +27,7 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
             const std::size_t i = result.image.index(x, y);
             result.image.rgba[i] = owner[i] == kBackground
                                        ? glm::dvec4(in.options.background, 0.0)
-                                       : glm::dvec4(shading.atPoint(owner[i], {x + 0.5, y + 0.5}), 1.0);
+                                       : glm::dvec4(shading.atPoint(owner[i], {x + 0.5, y + 0.5}).color, 1.0);
         }
         in.progress.advance(1);
     });

@@ -94,8 +94,8 @@ class Nsaa {
     glm::dvec2 offset() const { return in_.film.debug_offset_px; }
 
     glm::dvec3 shade(Owner owner, glm::dvec2 sample_px) const {
-        if (!plan_.constant.empty() && plan_.constant[owner]) return *plan_.constant[owner];
-        return shading_.closest(owner, sample_px);
+        if (!plan_.constant.empty() && plan_.constant[owner]) return plan_.constant[owner]->color;
+        return shading_.closest(owner, sample_px).color;
     }
 
     /// The buffers beside the image share what --memory leaves.

@@ -130,13 +130,13 @@ class PixelFilter {
         const Owner owner = runs.front().owner;
         if (owner == kBackground) return in_.options.background;
         if (in_.options.shading.mode == ShadingMode::kClosest)
-            return shading_.closest(owner, {x + 0.5, y + 0.5});
-        if (const auto colour = shading_.constant(owner)) return *colour;
+            return shading_.closest(owner, {x + 0.5, y + 0.5}).color;
+        if (const auto shade = shading_.constant(owner)) return shade->color;
         const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
         if (in_.options.shading.mode == ShadingMode::kCentroid) {
             glm::dvec2 sum(0.0);
             for (const glm::dvec2& p : seen) sum += p - glm::dvec2(x, y);
-            return shading_.closest(owner, glm::dvec2(x, y) + sum / double(seen.size()));
+            return shading_.closest(owner, glm::dvec2(x, y) + sum / double(seen.size())).color;
         }
         return meanOver(owner, seen);
     }
@@ -146,7 +146,7 @@ class PixelFilter {
         const std::size_t count = std::min<std::size_t>(in_.options.shading.samples, seen.size());
         glm::dvec3 sum(0.0);
         for (std::size_t i = 0; i < count; ++i)
-            sum += shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]);
+            sum += shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]).color;
         return sum / double(count);
     }
 
@@ -184,7 +184,7 @@ class PixelFilter {
     }
 
     glm::dvec3 colourAt(Owner owner, glm::dvec2 p_px) const {
-        return owner == kBackground ? in_.options.background : shading_.atPoint(owner, p_px);
+        return owner == kBackground ? in_.options.background : shading_.atPoint(owner, p_px).color;
     }
 
     const MethodInput& in_;

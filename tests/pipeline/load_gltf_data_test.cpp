@@ -126,9 +126,9 @@ TEST(LoadGltfData, MaterialsBringTheirTextures) {
     const Material& material = scene.materials[1];
     EXPECT_TRUE(material.double_sided && material.unlit);
     EXPECT_EQ(material.base_color, glm::dvec4(0.5, 0.25, 0.125, 1));
-    EXPECT_EQ(material.base_color_uv, 1);
+    EXPECT_EQ(material.base_color_map.uv, 1);
     EXPECT_EQ(scene.geometry[0].uv[1].size(), 3u) << "absent coordinates are read as (0, 0)";
-    ASSERT_EQ(material.base_color_texture, 0u);
+    ASSERT_EQ(material.base_color_map.texture, 0u);
     const Texture& texture = scene.textures[0];
     EXPECT_EQ(texture.wrap_s, Wrap::kClampToEdge);
     EXPECT_EQ(texture.wrap_t, Wrap::kMirroredRepeat);
@@ -140,7 +140,7 @@ TEST(LoadGltfData, MaterialsBringTheirTextures) {
     EXPECT_EQ(image.texels[0], glm::vec4(1, 0, static_cast<float>(linearFromSrgb(128 / 255.0)), 1))
         << "row 0 is the top";
     EXPECT_EQ(image.texels[1], glm::vec4(0, 1, 0, 1));
-    EXPECT_EQ(scene.materials[0].base_color_texture, kNone)
+    EXPECT_EQ(scene.materials[0].base_color_map.texture, kNone)
         << "the unused material's picture is not even opened";
     EXPECT_EQ(scene.materials[2].base_color, glm::dvec4(1.0));
 }

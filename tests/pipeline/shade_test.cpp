@@ -65,7 +65,8 @@ TEST(Shade, PerspectiveCorrectAlsoBehindTheEye) {
             if (height < 0.1 || piece.p_px[0] == piece.p_px[1]) continue;
             const double slant =
                 1.0 / std::fabs(glm::dot(shot.pieces.plane_normal_eye[piece.plane], glm::normalize(hit)));
-            expectNear(shot.shading.atPoint(owner, centre), hit, 0x1p-53 * 16 * 12 * 2 * slant / height);
+            expectNear(shot.shading.atPoint(owner, centre).color, hit,
+                       0x1p-53 * 16 * 12 * 2 * slant / height);
             EXPECT_EQ(shot.shading.atPoint(owner, centre), shot.shading.closest(owner, centre));
             ++checked;
             behind += std::max({t[0].z, t[1].z, t[2].z}) > 0;
@@ -99,7 +100,7 @@ TEST(Shade, FlatNormalsFaceTheViewerOnBothSides) {
     scene.materials[0].unlit = false;
     scene.materials[0].base_color = {0.5, 0.25, 1.0, 1.0};
     const Shot shot(scene, test::makePerspective(), 8, 8);
-    const glm::dvec3 expected = glm::dvec3(0.5, 0.25, 1.0) * rigLight({0, 0, 1});
+    const Shade expected{glm::dvec3(0.5, 0.25, 1.0) * rigLight({0, 0, 1}), 1.0};
     ASSERT_TRUE(shot.shading.constant(0) && shot.shading.constant(1));
     EXPECT_EQ(*shot.shading.constant(0), expected);
     EXPECT_EQ(*shot.shading.constant(1), expected);
@@ -117,7 +118,7 @@ TEST(Shade, InterpolatesAndFlipsNormals) {
     EXPECT_FALSE(shot.shading.constant(0));
     // (2, 2) px lies at barycentrics 1/2, 1/4, 1/4.
     const double expected = rigLight(glm::normalize(glm::dvec3(0.25, 0.25, 0.5)));
-    EXPECT_NEAR(shot.shading.atPoint(0, {2, 2}).r, expected, 16 * 0x1p-53);
+    EXPECT_NEAR(shot.shading.atPoint(0, {2, 2}).color.r, expected, 16 * 0x1p-53);
     EXPECT_EQ(shot.shading.atPoint(0, {2, 2}), shot.shading.atPoint(1, {2, 2}));
 }
 
@@ -128,14 +129,14 @@ TEST(Shade, ConstantOnlyWhereNothingVaries) {
     geometry.uv[0].assign(6, {0.25, 0.25});
     Scene scene = test::makeScene({geometry});
     const Shot coloured(scene, test::makePerspective(), 8, 8);
-    EXPECT_EQ(coloured.shading.constant(0), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(coloured.shading.constant(0), (Shade{{1, 0, 0}, 1}));
     EXPECT_FALSE(coloured.shading.constant(1));
-    scene.images = {checker(), {2, 1, {{.5, .5, .5, 1}, {.5, .5, .5, 0}}, "grey"}};
+    scene.images = {checker(), {2, 1, {{.5, .5, .5, 1}, {.5, .5, .5, 1}}, "grey"}};
     scene.textures = {{.image = 0}, {.image = 1}};
-    scene.materials[0].base_color_texture = 0;
+    scene.materials[0].base_color_map.texture = 0;
     EXPECT_FALSE(Shot(scene, test::makePerspective(), 8, 8).shading.constant(0));
-    scene.materials[0].base_color_texture = 1;
-    EXPECT_EQ(Shot(scene, test::makePerspective(), 8, 8).shading.constant(0), glm::dvec3(.5, 0, 0));
+    scene.materials[0].base_color_map.texture = 1;
+    EXPECT_EQ(Shot(scene, test::makePerspective(), 8, 8).shading.constant(0), (Shade{{.5, 0, 0}, 1}));
 }
 
 TEST(Texture, PyramidKeepsTheMean) {
@@ -155,7 +156,7 @@ TEST(Texture, WrapsAndFilters) {
     const Image image = checker();
     const MipPyramid pyramid(image);
     Texture texture{.image = 0};
-    auto at = [&](double u, double v) { return sampleTexture(texture, pyramid, {u, v}, {}); };
+    auto at = [&](double u, double v) { return glm::dvec3(sampleTexture(texture, pyramid, {u, v}, {})); };
     texture.mag = TexelFilter::kNearest;
     EXPECT_EQ(at(0.1, 0.1), glm::dvec3(1, 0, 0));
     EXPECT_EQ(at(0.9, 0.1), glm::dvec3(0, 1, 0));
