@@ -39,12 +39,6 @@ Kernel::Point_3 lifted(const ScreenScene& scene, const ScreenTriangle& t, std::s
     return {x, y, depth};
 }
 
-bool meets(const ScreenTriangle& t, const Region& region) {
-    const auto [x0, x1] = std::minmax({t.p_px[0].x, t.p_px[1].x, t.p_px[2].x});
-    const auto [y0, y1] = std::minmax({t.p_px[0].y, t.p_px[1].y, t.p_px[2].y});
-    return x0 <= region.x1 && x1 >= region.x0 && y0 <= region.y1 && y1 >= region.y0;
-}
-
 template <class Circulator>
 std::vector<Point> cycleOf(Circulator first) {
     std::vector<Point> cycle;
@@ -83,6 +77,12 @@ Face faceOf(const Diagram::Face& from) {
 }
 
 }  // namespace
+
+bool meets(const ScreenTriangle& t, const Region& region) {
+    const auto [x0, x1] = std::minmax({t.p_px[0].x, t.p_px[1].x, t.p_px[2].x});
+    const auto [y0, y1] = std::minmax({t.p_px[0].y, t.p_px[1].y, t.p_px[2].y});
+    return x0 <= region.x1 && x1 >= region.x0 && y0 <= region.y1 && y1 >= region.y0;
+}
 
 std::vector<Face> visibleFaces(const ScreenScene& scene, const Region& region) {
     std::vector<Traits::Surface_3> surfaces;

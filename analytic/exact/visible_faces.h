@@ -23,6 +23,9 @@ struct Region {
     double x0, y0, x1, y1;
 };
 
+/// Whether the triangle's bounding box meets the region.
+bool meets(const ScreenTriangle& triangle, const Region& region);
+
 /// The faces that have an owner, of all triangles whose bounding boxes meet the region (faces are not cut to
 /// it). What no face covers is the background's. The scene is opaque: panes are taken for opaque too. Pieces
 /// of one owner are one surface each. Time grows about as n log n with the size of the map: 1000 triangles
