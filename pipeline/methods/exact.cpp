@@ -55,7 +55,8 @@ class Oracle {
     Real weight(const exact::Face& face, const exact::Point& sample) const {
         if (filter_.kind == KernelKind::kBox)
             return Real(exact::boxWeight(face, sample, exact::Rational(filter_.radius)));
-        return kernel_.of(face, sample).value;
+        const exact::Weight w = kernel_.of(face, sample);
+        return abs(w.value) <= w.error ? Real(0) : w.value;  // a face that only its box brings near
     }
 
     static void requireJudgeable(const ScreenScene& screen, const exact::Region& region) {
