@@ -361,4 +361,17 @@ Shade Shading::closest(Owner owner, glm::dvec2 sample_px) const {
     return shadeAt(surface, locate(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px))));
 }
 
+Shade Shading::mean(Owner owner, glm::dvec2 sample_px, std::span<const glm::dvec2> offsets_px) const {
+    if (offsets_px.empty()) return closest(owner, sample_px);
+    if (const auto shade = constant(owner)) return *shade;
+    glm::dvec3 color(0.0), opaque(0.0);
+    double alpha = 0.0;
+    for (const glm::dvec2& offset : offsets_px) {
+        const Shade shade = closest(owner, sample_px + offset);
+        color += shade.color, opaque += shade.alpha * shade.color, alpha += shade.alpha;
+    }
+    const auto count = static_cast<double>(offsets_px.size());
+    return {alpha > 0.0 ? opaque / alpha : color / count, alpha / count};
+}
+
 }  // namespace edgewise

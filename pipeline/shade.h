@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/brdf.h"
@@ -47,6 +48,10 @@ class Shading {
 
     /// At a point that lies on the owner.
     Shade atPoint(Owner owner, glm::dvec2 p_px) const;
+
+    /// The mean over the owner's points nearest to sample + offset; without offsets closest(). Where opacity
+    /// varies the mean colour is that of what is there: weighted by it.
+    Shade mean(Owner owner, glm::dvec2 sample_px, std::span<const glm::dvec2> offsets_px) const;
 
     /// The shade of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<Shade> constant(Owner owner) const;
