@@ -233,6 +233,7 @@ TEST(Materials, ConstantShadesAreThoseOfEveryPlace) {
         Material& m = fixed.materials[0];
         m.base_color = {unit(random), unit(random), unit(random), unit(random)};
         m.metallic = unit(random), m.roughness = unit(random), m.alpha_mode = static_cast<AlphaMode>(i % 3);
+        m.alpha_cutoff = 0.0;  // a mask that is not there has no pieces
         m.emissive = glm::dvec3(i % 4 == 0 ? unit(random) : 0.0);
         if (i % 2 == 0) fixed.geometry[0].normal_world.assign(3, {unit(random) - 0.5, unit(random) - 0.5, 1});
         if (i % 5 < 2) fixed.lights = {sun({unit(random) - 0.5, unit(random) - 0.5, unit(random)})};

@@ -71,8 +71,8 @@ double toReal(FixedWeight weight) {
     return std::ldexp(static_cast<double>(weight), -kWeightBits);
 }
 
-/// A region's centroids by weight sum up to the measure's own, the sample. Each is rounded to the grid; owners
-/// of less than 2^-32 have none.
+/// A region's centroids by weight sum up to the measure's own, the sample. Each is rounded to the grid;
+/// owners of less than 2^-32 have none.
 TEST(ShadingPoints, CentroidsBalanceAroundTheSample) {
     for (const char* name : {"gaussian", "cone", "disk", "box", "mitchell", "lanczos", "poly:1,-1.5"}) {
         SCOPED_TRACE(name);
@@ -127,7 +127,8 @@ TEST(ShadingPoints, CentroidsAgreeWithManySamples) {
             for (int j = 0; j < box.height() * K; ++j)
                 for (int i = 0; i < box.width() * K; ++i) {
                     if (owners[static_cast<std::size_t>(j) * box.width() * K + i] != owner) continue;
-                    const glm::dvec2 from(box.x0 + (i + 0.5) / K - (x + 0.5), box.y0 + (j + 0.5) / K - (y + 0.5));
+                    const glm::dvec2 from(box.x0 + (i + 0.5) / K - (x + 0.5),
+                                          box.y0 + (j + 0.5) / K - (y + 0.5));
                     if (std::max(std::fabs(from.x), std::fabs(from.y)) > measure.radius) continue;
                     const double w = evaluate(measure, from.x, from.y);
                     sum += w * from, total += w;
@@ -151,8 +152,8 @@ TEST(ShadingPoints, CentroidsAgreeWithManySamples) {
                     between += glm::dot(at16, at16), off += glm::dot(difference, difference), ++pairs;
                 }
             }
-        std::printf("seed 72: %s, %zu pairs: rms %.2e px from 64 x 64 samples, which are %.2e from 16 x 16\n", name,
-                    pairs, std::sqrt(off / pairs), std::sqrt(between / pairs));
+        std::printf("seed 72: %s, %zu pairs: rms %.2e px from 64 x 64 samples, which are %.2e from 16 x 16\n",
+                    name, pairs, std::sqrt(off / pairs), std::sqrt(between / pairs));
         EXPECT_GT(pairs, 15u);
         EXPECT_LE(off, between);
     }
@@ -203,7 +204,8 @@ TEST(ShadingPoints, SamplesLieWhereTheOwnerIsSeen) {
                             if (!owner) continue;
                             ++points;
                             wrong += *owner != tile.entries[e].owner;
-                            EXPECT_LE(std::max(std::fabs(offset.x), std::fabs(offset.y)), stage.filter.radius);
+                            EXPECT_LE(std::max(std::fabs(offset.x), std::fabs(offset.y)),
+                                      stage.filter.radius);
                         }
                     }
                 }
@@ -259,9 +261,9 @@ TEST(ShadingPoints, CentroidsMakeLinearShadingExact) {
 }
 
 TEST(ShadingPoints, OwnersOfAlmostNothingAreShadedAtTheClosestPoint) {
-    Geometry geometry = test::makeGeometry({{{{0, -40, -1}, {80, 0, -1}, {0, 40, -1}}},
-                                            {{{-0x1p-10f, -40, -1}, {-0x1p-10f + 0x1p-31f, 0, -1},
-                                              {-0x1p-10f, 40, -1}}}});
+    Geometry geometry =
+        test::makeGeometry({{{{0, -40, -1}, {80, 0, -1}, {0, 40, -1}}},
+                            {{{-0x1p-10f, -40, -1}, {-0x1p-10f + 0x1p-31f, 0, -1}, {-0x1p-10f, 40, -1}}}});
     for (const glm::dvec3& p : geometry.position_world) geometry.color.push_back(anyColor(p));
     Stage stage({geometry}, "gaussian", kCentroid);
     test::NsaaStages stages(stage.input());
@@ -281,9 +283,9 @@ TEST(ShadingPoints, OwnersOfAlmostNothingAreShadedAtTheClosestPoint) {
 class ShadingModes : public testing::TestWithParam<ShadingChoice> {};
 
 TEST_P(ShadingModes, ThreadsCropsAndWholePixelsDoNotShow) {
-    for (const auto& [name, alpha_mode] : {std::pair("gaussian", AlphaMode::kOpaque),
-                                           std::pair("mitchell", AlphaMode::kOpaque),
-                                           std::pair("gaussian", AlphaMode::kBlend)}) {
+    for (const auto& [name, alpha_mode] :
+         {std::pair("gaussian", AlphaMode::kOpaque), std::pair("mitchell", AlphaMode::kOpaque),
+          std::pair("gaussian", AlphaMode::kBlend)}) {
         SCOPED_TRACE(name);
         std::mt19937 random(74);
         Stage stage({triangleSoup(random, 40, anyColor)}, name, GetParam());
