@@ -111,8 +111,8 @@ std::optional<glm::dvec2> ShadingPointFinder::centroid(const OwnerWeight& entry,
 
 /// From the samples' row, where owners are known, straight up or down to the point: what lies beyond the last
 /// edge on the way has it. Between edges through one place of the way the steeper one is the last for a point
-/// just right of it; the row's owner lies right of an edge through the row's own point, and below a horizontal
-/// one.
+/// just right of it; the row's owner lies right of an edge through the row's own point, and below a
+/// horizontal one.
 Owner ShadingPointFinder::ownerAt(glm::dvec2 q, const RowOwner& row) const {
     const double way = q.y < 0.0 ? -1.0 : 1.0;
     const Edge* last = nullptr;

@@ -28,12 +28,13 @@ struct ShadingPoints {
     }
 };
 
-/// centroid   The centroid of what the support shows of the owner: weighted by the filter where that is radial
+/// centroid   The centroid of what the support shows of the owner: weighted by the filter where that is
+/// radial
 ///            and nowhere negative, else of the area [E17]. An owner of less than 2^-32 of the weight, whose
 ///            centroid would be rounding, is shaded at the closest point.
 /// samples:N  Up to N points where the support shows the owner: of the Halton sequence in bases 2 and 3 over
-///            the support's square, cut to the disk of radial filters, the first kTriesPerPoint N are tried. An
-///            owner that none of them meets is shaded at its centroid.
+///            the support's square, cut to the disk of radial filters, the first kTriesPerPoint N are tried.
+///            An owner that none of them meets is shaded at its centroid.
 /// Same points whatever the order of add(), the threads, tiles and crops.
 class ShadingPointFinder {
   public:

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "pipeline/composite.h"
 #include "analytic/first_moments.h"
+#include "pipeline/composite.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/sample_weights.h"
