@@ -103,7 +103,7 @@ bool clipHorizontalEdge(const CellFrame& frame, const Carrier& edge, LeafHorizon
     const FineCoordinate y{edge.a.y, 0.0};
     const FinePoint low = edge.b.x <= cell.min.x ? finePoint(border(cell.min.x), y) : gridPoint(edge.b);
     const FinePoint high = edge.a.x > cell.max.x ? finePoint(border(cell.max.x), y) : gridPoint(edge.a);
-    out = {edge, orderKey(y, frame.origin.y), y, low, high, frame.localX(low), frame.localX(high)};
+    out = {edge, orderKey(y, frame.origin.y), y, low, high};
     return true;
 }
 

@@ -56,13 +56,12 @@ struct LeafLine {
     }
 };
 
-/// A horizontal edge or line of equal depth: from x_low to x_high from the origin.
+/// A horizontal edge or line of equal depth, from low to high.
 struct LeafHorizontal {
     Carrier carrier;
     OrderKey key;
     FineCoordinate y;
     FinePoint low, high;
-    double x_low, x_high;
 };
 
 /// line.carrier, an edge that is not horizontal, clipped. False where it neither runs inside nor left of the
