@@ -57,18 +57,26 @@ std::string checkWeights(const VisibleMap& map) {
     return {};
 }
 
-}  // namespace
-
-std::string checkVisibility(const ScreenScene& scene) {
+std::string checkMap(const ScreenScene& scene, const VisibilityOptions& options) {
     const int centre = int(std::floor(kSamplePx)), reach = kReachPx + 1;
-    const VisibleMap map =
-        visibleMap(scene, {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1});
+    const Window window{centre - reach, centre - reach, centre + reach + 1, centre + reach + 1};
+    const VisibleMap map = visibleMap(scene, window, options);
     if (std::string wrong = checkSegments(map); !wrong.empty()) return wrong;
     if (std::string wrong = checkWeights(map); !wrong.empty()) return wrong;
     const auto verdict = witness::compareMap(scene, map, {kSamplePx, kSamplePx}, kReachPx, 1, kRandomLines);
     if (verdict.wrong_px2 <= kWrongPx2) return {};
     return fmt::format("{:.3g} px2 wrong, {} places without a single owner; first: {}",
                        double(verdict.wrong_px2), verdict.broken, verdict.first);
+}
+
+}  // namespace
+
+std::string checkVisibility(const ScreenScene& scene) {
+    if (std::string wrong = checkMap(scene, {}); !wrong.empty()) return wrong;
+    VisibilityOptions split;  // so few triangles fit one cell otherwise
+    split.max_triangles = 2;
+    const std::string wrong = checkMap(scene, split);
+    return wrong.empty() ? wrong : "in small cells: " + wrong;
 }
 
 }  // namespace edgewise::fuzz
