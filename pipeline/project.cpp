@@ -6,6 +6,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/eye_plane.h"
 #include "pipeline/grid_orientation.h"
+#include "pipeline/opacity.h"
 #include "pipeline/weld.h"
 
 namespace edgewise {
@@ -72,7 +73,8 @@ class Projector {
           volume_(camera.camera, map_),
           groups_(findCoplanar(scene)),
           planes_(makeEyePlanes(scene, groups_, camera.camera_from_world)),
-          vertices_(weldVertices(scene, camera.camera_from_world)) {
+          vertices_(weldVertices(scene, camera.camera_from_world)),
+          opacity_(opacityOf(scene)) {
         placeVertices(volume_, map_, vertices_);
     }
 
@@ -84,6 +86,7 @@ class Projector {
         tbb::parallel_for(std::size_t(0), runs.size(),
                           [&](std::size_t i) { projectRun(i, runs[i], pieces); });
         join(runs, screen, pieces);
+        markSeeThrough(screen);
         return screen;
     }
 
@@ -103,6 +106,13 @@ class Projector {
         });
     }
 
+    void markSeeThrough(ScreenScene& screen) const {
+        const auto through = [](Opacity o) { return o == Opacity::kSeeThrough; };
+        if (std::ranges::none_of(opacity_, through)) return;
+        screen.see_through.resize(opacity_.size());
+        std::ranges::transform(opacity_, screen.see_through.begin(), through);
+    }
+
     void projectRun(std::size_t number, Run& run, ScreenPieces& pieces) const {
         const std::size_t end = std::min((number + 1) * kRunLength, scene_.triangle_count);
         TriangleRef at = findTriangle(scene_, static_cast<std::uint32_t>(number * kRunLength));
@@ -116,6 +126,7 @@ class Projector {
         const Geometry& geometry = scene_.geometry[at.geometry];
         const std::uint32_t plane = groups_.plane_of[owner];
         ++run.counts.triangles;
+        if (!opacity_.empty() && opacity_[owner] == Opacity::kInvisible) return void(++run.counts.invisible);
         if (plane == kNone || edge_on_[plane]) return void(++run.counts.no_area);
         back_facing = (planes_[plane].facing(map_.perspective) < 0.0) != (groups_.reversed[owner] != 0);
         if (back_facing && !scene_.materials[geometry.material].double_sided)
@@ -204,6 +215,7 @@ class Projector {
         all.triangles += run.triangles;
         all.no_area += run.no_area;
         all.culled += run.culled;
+        all.invisible += run.invisible;
         all.outside += run.outside;
         all.vanished += run.vanished;
         all.visible += run.visible;
@@ -217,6 +229,7 @@ class Projector {
     std::vector<EyePlane> planes_;
     EyeVertices vertices_;
     std::vector<std::uint8_t> edge_on_;
+    std::vector<Opacity> opacity_;
 };
 
 }  // namespace

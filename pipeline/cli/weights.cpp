@@ -36,8 +36,8 @@ glm::ivec2 readPixel(const std::string& text, const Film& film) {
     return pixel;
 }
 
-/// Every number reads back exactly. `layers` are the triangles seen through each other, front to back: one,
-/// while everything is opaque.
+/// Every number reads back exactly. `layers` are the triangles in front of this one, front to back, then
+/// itself: itself alone while everything is opaque.
 Json ownerJson(const Scene& scene, const PixelOwner& owner) {
     const TriangleRef triangle = findTriangle(scene, owner.index);
     const Geometry& geometry = scene.geometry[triangle.geometry];
@@ -48,7 +48,7 @@ Json ownerJson(const Scene& scene, const PixelOwner& owner) {
             {"triangle", triangle.triangle},
             {"weight", owner.weight},
             {"color", {owner.color.r, owner.color.g, owner.color.b}},
-            {"layers", {owner.index}}};
+            {"layers", owner.layers}};
 }
 
 Json filterJson(const Prefilter& filter) {

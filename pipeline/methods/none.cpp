@@ -1,6 +1,7 @@
 // One sample at the pixel's centre: the front-most owner's colour there.
 #include <tbb/parallel_for.h>
 
+#include "pipeline/composite.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
@@ -17,7 +18,7 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     watch.book("project", result.stages);
     checkCancelled(in.progress);
     const PointSampler sampler(screen, in.film.crop, 1);
-    const std::vector<Owner> owner = sampler.sample(in.film.crop);
+    const SampledOwners sampled = sampler.sample(in.film.crop);
     watch.book("visibility", result.stages);
     checkCancelled(in.progress);
     result.image = ImageBuffer(in.film.crop);
@@ -25,16 +26,20 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
         for (int x = in.film.crop.x0; x < in.film.crop.x1; ++x) {
             const std::size_t i = result.image.index(x, y);
-            result.image.rgba[i] = owner[i] == kBackground
-                                       ? glm::dvec4(in.options.background, 0.0)
-                                       : glm::dvec4(shading.atPoint(owner[i], {x + 0.5, y + 0.5}).color, 1.0);
+            const Shade seen = composite(
+                sampled.stacks.layersOf(sampled.owner[i]),
+                [&](Owner o) {
+                    return shading.atPoint(o, {x + 0.5, y + 0.5});
+                },
+                in.options.background);
+            result.image.rgba[i] = glm::dvec4(seen.color, seen.alpha);
         }
         in.progress.advance(1);
     });
     watch.book("shade", result.stages);
     result.counts = {{"triangles", in.scene.triangle_count},
                      {"pieces", screen.triangles.size()},
-                     {"samples", owner.size()},
+                     {"samples", sampled.owner.size()},
                      {"exact_depths", sampler.exactDepths()}};
     return result;
 }

@@ -12,6 +12,7 @@
 
 #include "pipeline/bands.h"
 #include "pipeline/blend.h"
+#include "pipeline/composite.h"
 #include "pipeline/dump_stages.h"
 #include "pipeline/gather.h"
 #include "pipeline/methods/registry.h"
@@ -50,6 +51,7 @@ class Nsaa {
           dump_(in.options.dump_dir, in.film.crop) {
         watch_.book("project", result_.stages);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
+        plan_.visibility.film_offset_px = offset();
         watch_.book("plan", result_.stages);
         dump_.screen(screen_);
         dump_.plan(plan_.entries);
@@ -74,17 +76,14 @@ class Nsaa {
         const VisibleMap map = visibleMapOf(box);
         TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}};
         const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
-        worker.weights.run(map, tiles.segments.ids, plan_.classes, box, offset(), worker.tile);
+        const MapOwners owners(plan_.classes, map);
+        worker.weights.run(map, tiles.segments.ids, owners.classes, box, offset(), worker.tile);
         PixelReport out;
         FixedWeight sum = 0;
         for (const OwnerWeight& entry : worker.tile.entries) {
-            const double weight = std::ldexp(static_cast<double>(entry.weight), -kWeightBits);
             sum += entry.weight;
-            if (entry.owner == kBackground)
-                out.background = weight;
-            else
-                out.owners.push_back(
-                    {entry.owner, weight, shade(entry.owner, glm::dvec2(x + 0.5, y + 0.5) + offset())});
+            reportOwner(owners.stacks.layersOf(entry.owner), entry.weight,
+                        glm::dvec2(x + 0.5, y + 0.5) + offset(), out);
         }
         out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
         return out;
@@ -93,9 +92,33 @@ class Nsaa {
   private:
     glm::dvec2 offset() const { return in_.film.debug_offset_px; }
 
-    glm::dvec3 shade(Owner owner, glm::dvec2 sample_px) const {
-        if (!plan_.constant.empty() && plan_.constant[owner]) return plan_.constant[owner]->color;
-        return shading_.closest(owner, sample_px).color;
+    /// What the owners of a map's weights are.
+    struct MapOwners {
+        MapOwners(const OwnerClasses& triangles, const VisibleMap& map)
+            : classes(triangles.ofMap(map.stacks, stacks)) {}
+        LayerStacks stacks;
+        OwnerClasses classes;
+    };
+
+    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
+                     PixelReport& out) const {
+        const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
+        const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
+            out.owners.push_back(
+                {layers[k], weight * share, color, {layers.begin(), layers.begin() + k + 1}});
+        };
+        out.background += weight * throughLayers(
+                                       layers, [&](Owner o) { return shadeTriangle(o, sample); }, add);
+    }
+
+    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
+        if (!plan_.constant.empty() && plan_.constant[owner]) return *plan_.constant[owner];
+        return shading_.closest(owner, sample_px);
+    }
+
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+        return composite(
+            layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in_.options.background);
     }
 
     /// The buffers beside the image share what --memory leaves.
@@ -122,12 +145,14 @@ class Nsaa {
         VisibleMap map = visibility(screen_, grid, lists, plan_.visibility, in_.progress, visibility_counts_);
         watch_.book("visibility", result_.stages);
         counts_["segments"] += map.segments.size();
+        counts_["stacks"] += map.stacks.size();
         return map;
     }
 
     void renderBand(const PixelBox& band) {
         checkCancelled(in_.progress);
         const VisibleMap map = visibleMapOf(band);
+        const MapOwners owners(plan_.classes, map);
         dump_.segments(map, band, offset());
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
@@ -136,24 +161,25 @@ class Nsaa {
         });
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
-            renderTile(map, tiles, t, workers.local());
+            renderTile(map, owners, tiles, t, workers.local());
         });
         in_.progress.advance(static_cast<std::size_t>(band.height()));
         bookTiles(workers, watch_.lap());
     }
 
-    void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {
+    void renderTile(const VisibleMap& map, const MapOwners& owners, const WeightTiles& tiles, std::size_t t,
+                    TileWorker& worker) {
         const auto& lists = tiles.segments;
         Stopwatch watch;
         worker.weights.run(
             map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
-            plan_.classes, tiles.boxes[t], offset(), worker.tile);
+            owners.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
         dump_.weights(worker.tile);
         worker.pairs += worker.tile.entries.size();
         blend(
-            worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); },
-            in_.options.background, result_.image);
+            worker.tile, offset(), [&](Owner o, glm::dvec2 s) { return shade(owners.stacks.layersOf(o), s); },
+            result_.image);
         watch.book("blend", worker.times);
     }
 
