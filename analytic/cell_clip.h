@@ -20,7 +20,7 @@ struct CellFrame {
     double localY(FineCoordinate y) const { return (y.grid - origin.y) + y.rest; }
     /// Saturates far outside the guard band.
     OrderKey key(FineCoordinate y) const;
-    /// -1 left of the cell, 0 within its columns, +1 right of it.
+    /// -1 left of the cell, 0 within its columns, +1 right of it; for abscissae on the grid.
     int column(double grid_x) const { return grid_x <= cell.min.x ? -1 : grid_x > cell.max.x ? 1 : 0; }
 };
 
