@@ -166,10 +166,12 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
-        const FinePoint low = pointAtX(c, border(frame.cell.min.x)),
-                        high = pointAtX(c, border(frame.cell.max.x));
-        const OrderKey key = frame.key(yOf(low));
-        if (key > frame.top && key < frame.bottom) horizontals.push_back({c, key, yOf(low), low, high});
+        FineCoordinate y = yOf(pointAtX(c, border(frame.cell.min.x)));
+        if (frame.key(y) == frame.bottom) y.rest -= 0x1p-76;  // on the border, which belongs to this cell
+        const OrderKey key = frame.key(y);
+        if (key > frame.top && key < frame.bottom)
+            horizontals.push_back(
+                {c, key, y, finePoint(border(frame.cell.min.x), y), finePoint(border(frame.cell.max.x), y)});
         return;
     }
     if (!clipDepthLine(frame, line)) return;

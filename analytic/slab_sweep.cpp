@@ -317,11 +317,17 @@ FinePoint SlabSweep::State::topPoint(std::uint32_t line, std::size_t slab) const
     return tracks[line].top_known ? tracks[line].top : pointAtY(l.carrier, leaf.ordinates[slab]);
 }
 
+/// A piece of a flat line whose ends rounding moved, or led to a vertex, may run against the line though it
+/// runs down: it is turned, for it is integrated along the line.
 void SlabSweep::State::closePiece(std::uint32_t line, const FinePoint& end) {
     Track& t = tracks[line];
     if (!t.open) return;
     const Carrier& c = leaf.lines[line].carrier;
-    out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
+    const double dx = difference(xOf(end), xOf(t.start)), dy = difference(yOf(end), yOf(t.start));
+    if (dx * leaf.lines[line].slope + dy >= 0.0)
+        out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
+    else
+        out->segments.push_back({lineKey(c), c.ref, t.right, t.left, end, t.start});
     t.open = false;
 }
 

@@ -29,7 +29,8 @@ std::string checkSegments(const VisibleMap& map) {
         if (s.left == s.right) return fmt::format("a segment has owner {} on both sides", s.left);
         if (s.line >= map.lines.size()) return "a segment lies on no line";
         const glm::dvec2 run = (s.b.grid - s.a.grid) + (s.b.rest - s.a.rest);
-        if (run.y < 0 || (run.y == 0 && run.x > 0)) return "a segment runs against its line";
+        const glm::dvec2 direction = map.lines[s.line].direction;
+        if (run.x * direction.x + run.y * direction.y < 0) return "a segment runs against its line";
     }
     return {};
 }
