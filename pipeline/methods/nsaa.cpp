@@ -175,7 +175,7 @@ class Nsaa {
             map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
             owners.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
-        dump_.weights(worker.tile);
+        dump_.weights(worker.tile, owners.stacks);
         worker.pairs += worker.tile.entries.size();
         blend(
             worker.tile, offset(), [&](Owner o, glm::dvec2 s) { return shade(owners.stacks.layersOf(o), s); },
