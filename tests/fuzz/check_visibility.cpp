@@ -4,10 +4,11 @@
 
 #include <cmath>
 
+#include "analytic/pixel_weights.h"
+#include "analytic/row_owners.h"
 #include "analytic/visibility.h"
 #include "tests/fuzz/scene_from_bytes.h"
 #include "tests/witness/map_scan.h"
-#include "tests/witness/product_weights.h"
 
 namespace edgewise::fuzz {
 namespace {
@@ -35,26 +36,48 @@ std::string checkSegments(const VisibleMap& map) {
     return {};
 }
 
-/// An open boundary shows in the weights of positive kernels: an owner below 0, or labels that do not chain.
+struct FilterWeights {
+    const char* name;
+    Prefilter filter;
+    PixelWeights weights;
+
+    explicit FilterWeights(const char* n) : name(n), filter(makePrefilter(n, {}, {})), weights(filter) {}
+};
+
+/// An open boundary shows in the weights of positive kernels: an owner below 0, or labels that are not left
+/// as often as entered.
+std::string checkSample(FilterWeights& f, const VisibleMap& map, glm::ivec2 pixel) {
+    constexpr double kRoundings = 0x1p-40;  // of up to a thousand terms and border shares, with room
+    const std::uint64_t conflicts = f.weights.label_conflicts();
+    const glm::dvec2 sample = glm::dvec2(pixel) + 0.5;
+    f.weights.begin(sample, 1);
+    for (const VisibleSegment& s : map.segments) f.weights.add(s, map.lines[s.line], s.left, s.right);
+    const Owner base = ownerOnRow(map, pixel.y, sample.x + f.filter.radius);
+    std::vector<OwnerWeight> weights;
+    std::size_t offset[2] = {0, 0};
+    f.weights.finish(&base, weights, offset);
+    FixedWeight sum = 0;
+    for (const OwnerWeight& entry : weights) {
+        sum += entry.weight;
+        const double weight = std::ldexp(double(entry.weight), -kWeightBits);
+        if (weight < -kRoundings || weight > 1 + kRoundings)
+            return fmt::format("{}: owner {} has weight {}", f.name, entry.owner, weight);
+    }
+    if (sum != FixedWeight{1} << kWeightBits) return fmt::format("{}: weights do not sum to 1", f.name);
+    if (f.weights.label_conflicts() != conflicts)
+        return fmt::format("{}: border labels do not chain", f.name);
+    return {};
+}
+
 /// The kernels take both ways to the closed form, strips and fans, and supports within the judged window.
 std::string checkWeights(const VisibleMap& map) {
-    constexpr double kRoundings = 0x1p-40;  // of up to a thousand terms and border shares, with room
-    for (const char* name : {"box", "disk", "cone", "gaussian"}) {
-        const Prefilter filter = makePrefilter(name, {}, {});
-        for (const glm::ivec2 by : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(-1, 1)}) {
-            const glm::ivec2 pixel = glm::ivec2(int(std::floor(kSamplePx))) + by;
-            const auto product = witness::productWeights(map, filter, pixel);
-            FixedWeight sum = 0;
-            for (const OwnerWeight& entry : product.weights) {
-                sum += entry.weight;
-                const double weight = std::ldexp(double(entry.weight), -kWeightBits);
-                if (weight < -kRoundings || weight > 1 + kRoundings)
-                    return fmt::format("{}: owner {} has weight {}", name, entry.owner, weight);
-            }
-            if (sum != FixedWeight{1} << kWeightBits) return fmt::format("{}: weights do not sum to 1", name);
-            if (product.label_conflicts != 0) return fmt::format("{}: border labels do not chain", name);
-        }
-    }
+    static FilterWeights filters[] = {FilterWeights("box"), FilterWeights("disk"), FilterWeights("cone"),
+                                      FilterWeights("gaussian")};
+    for (FilterWeights& f : filters)
+        for (const glm::ivec2 by : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(-1, 1)})
+            if (std::string wrong = checkSample(f, map, glm::ivec2(int(std::floor(kSamplePx))) + by);
+                !wrong.empty())
+                return wrong;
     return {};
 }
 
