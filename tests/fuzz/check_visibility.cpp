@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "analytic/pixel_weights.h"
 #include "analytic/row_owners.h"
 #include "analytic/visibility.h"
 #include "tests/fuzz/scene_from_bytes.h"
 #include "tests/witness/map_scan.h"
+#include "tests/witness/wide.h"
 
 namespace edgewise::fuzz {
 namespace {
@@ -32,6 +35,47 @@ std::string checkSegments(const VisibleMap& map) {
         const glm::dvec2 run = (s.b.grid - s.a.grid) + (s.b.rest - s.a.rest);
         const glm::dvec2 direction = map.lines[s.line].direction;
         if (run.x * direction.x + run.y * direction.y < 0) return "a segment runs against its line";
+    }
+    return {};
+}
+
+/// That an owner's boundary enters or leaves a point.
+struct Passage {
+    witness::Quad x, y;
+    Owner owner;
+    int by;
+    auto place() const { return std::tie(x, y, owner); }
+};
+
+/// Owners are left as often as they are entered at every point of the map, but on its window's border: bit
+/// for bit within a leaf, else as samples see it (cells round what lies within a few 2^-76 px for
+/// themselves).
+std::string checkClosed(const VisibleMap& map, const Window& cells, bool one_leaf) {
+    std::vector<Passage> passages;
+    const auto place = [=](double grid, double rest) {
+        return one_leaf ? witness::Quad(grid) + rest : witness::Quad((grid - kSamplePx) + rest) + kSamplePx;
+    };
+    const auto note = [&](const FinePoint& p, Owner owner, int by) {
+        const witness::Quad x = place(p.grid.x, p.rest.x), y = place(p.grid.y, p.rest.y);
+        const bool inside = x > cells.x0 + kBorderRestPx && x < cells.x1 + kBorderRestPx &&
+                            y > cells.y0 + kBorderRestPx && y < cells.y1 + kBorderRestPx;
+        if (inside) passages.push_back({x, y, owner, by});
+    };
+    for (const VisibleSegment& s : map.segments) {
+        note(s.a, s.left, 1), note(s.b, s.left, -1);
+        note(s.a, s.right, -1), note(s.b, s.right, 1);
+    }
+    std::sort(passages.begin(), passages.end(),
+              [](const Passage& p, const Passage& q) { return p.place() < q.place(); });
+    for (std::size_t first = 0; first < passages.size();) {
+        int sum = 0;
+        std::size_t last = first;
+        for (; last < passages.size() && passages[last].place() == passages[first].place(); ++last)
+            sum += passages[last].by;
+        if (sum != 0)
+            return fmt::format("the boundary of owner {} is open at ({:.17g}, {:.17g})",
+                               passages[first].owner, double(passages[first].x), double(passages[first].y));
+        first = last;
     }
     return {};
 }
@@ -81,20 +125,22 @@ std::string checkWeights(const VisibleMap& map) {
     return {};
 }
 
-VisibleMap mapOf(const ScreenScene& scene, const VisibilityOptions& options) {
+Window judgedWindow() {
     const int centre = int(std::floor(kSamplePx)), reach = kReachPx + 1;
-    return visibleMap(scene, {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1},
-                      options);
+    return {centre - reach, centre - reach, centre + reach + 1, centre + reach + 1};
 }
 
-std::string checkPartition(const VisibleMap& map) {
-    const std::string wrong = checkSegments(map);
-    return wrong.empty() ? checkWeights(map) : wrong;
+std::string checkPartition(const VisibleMap& map, const VisibilityOptions& options) {
+    const bool one_leaf = options.max_triangles >= int(kMostTriangles);
+    if (std::string wrong = checkSegments(map); !wrong.empty()) return wrong;
+    if (std::string wrong = checkClosed(map, cellWindow(judgedWindow()), one_leaf); !wrong.empty())
+        return wrong;
+    return checkWeights(map);
 }
 
 std::string checkMap(const ScreenScene& scene, const VisibilityOptions& options) {
-    const VisibleMap map = mapOf(scene, options);
-    if (std::string wrong = checkPartition(map); !wrong.empty()) return wrong;
+    const VisibleMap map = visibleMap(scene, judgedWindow(), options);
+    if (std::string wrong = checkPartition(map, options); !wrong.empty()) return wrong;
     const auto verdict = witness::compareMap(scene, map, {kSamplePx, kSamplePx}, kReachPx, 1, kRandomLines);
     if (verdict.wrong_px2 <= kWrongPx2) return {};
     return fmt::format("{:.3g} px2 wrong, {} places without a single owner; first: {}",
@@ -105,7 +151,7 @@ std::string checkMap(const ScreenScene& scene, const VisibilityOptions& options)
 std::string checkStacks(ScreenScene scene) {
     scene.see_through.assign(kMostTriangles, 0);
     for (std::size_t k = 0; k < scene.see_through.size(); k += 2) scene.see_through[k] = 1;
-    return checkPartition(mapOf(scene, {}));
+    return checkPartition(visibleMap(scene, judgedWindow(), {}), {});
 }
 
 std::string named(const char* where, const std::string& wrong) {
