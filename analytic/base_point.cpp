@@ -15,7 +15,7 @@ namespace {
 constexpr double kLookupPx = 0x1p-31;
 
 /// B and a vertex nearer than 2^-50 px are one point: their coordinates relative to the sample carry two
-/// roundings.
+/// roundings. A segment no longer than that is a point too, and has no side.
 constexpr double kOnePoint2 = 0x1p-100;
 
 struct Ends {
@@ -49,6 +49,7 @@ std::optional<bool> bothInside(bool radial, double R, const Ends& e) {
 
 void considerBase(BasePoint& base, bool radial, double R, glm::dvec2 sample, const VisibleSegment& segment,
                   const CarrierLine& line, Owner left, Owner right) {
+    if (segment.length * segment.length <= kOnePoint2) return;
     const Ends ends{relative(segment.a, sample), relative(segment.b, sample)};
     const glm::dvec2 B{R, 0.0}, d = line.direction;
     const double near = std::min(kLookupPx, R * 0x1p-20);

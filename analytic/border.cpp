@@ -21,16 +21,17 @@ struct Cluster {
 /// one may lie.
 void noteDoubts(Crossings& c, double limit) {
     double low = HUGE_VAL;
-    for (BorderCrossing& x : c) x.doubt = std::min(x.doubt, limit);
-    for (auto x = c.rbegin(); x != c.rend(); ++x) x->reaches_back = low = std::min(low, x->order - x->doubt);
+    for (auto x = c.rbegin(); x != c.rend(); ++x)
+        x->reaches_back = low = std::min(low, x->order - std::min(x->doubt, limit));
 }
 
 /// A cluster ends where no crossing before may lie behind any crossing after.
-std::size_t clusterEnd(const Crossings& c, std::size_t first) {
-    double reach = c[first].order + c[first].doubt;
+std::size_t clusterEnd(const Crossings& c, std::size_t first, double limit) {
+    const auto reachOf = [=](const BorderCrossing& x) { return x.order + std::min(x.doubt, limit); };
+    double reach = reachOf(c[first]);
     std::size_t last = first + 1;
     for (; last < c.size() && c[last].reaches_back <= reach; ++last)
-        reach = std::max(reach, c[last].order + c[last].doubt);
+        reach = std::max(reach, reachOf(c[last]));
     return last;
 }
 
@@ -47,46 +48,6 @@ std::optional<Owner> labelBefore(const Crossings& c, Cluster cluster) {
         found = c[i].before;
     }
     return found;
-}
-
-/// The cluster's crossings in an order in which their labels chain from `label`, all of them where that is
-/// possible: an Eulerian path by Hierholzer's way, labels being its nodes; those that it cannot reach come
-/// last.
-std::vector<std::size_t> chain(const Crossings& c, Cluster cluster, Owner label) {
-    constexpr std::size_t kStart = ~std::size_t{0};
-    std::vector<bool> used(c.size(), false);
-    std::vector<std::size_t> walk{kStart}, path;
-    while (!walk.empty()) {
-        const Owner here = walk.back() == kStart ? label : c[walk.back()].after;
-        std::size_t next = cluster.first;
-        while (next < cluster.last && (used[next] || c[next].before != here)) ++next;
-        if (next < cluster.last) {
-            used[next] = true;
-            walk.push_back(next);
-        } else {
-            if (walk.back() != kStart) path.push_back(walk.back());
-            walk.pop_back();
-        }
-    }
-    std::reverse(path.begin(), path.end());
-    for (std::size_t i = cluster.first; i < cluster.last; ++i)
-        if (!used[i]) path.push_back(i);
-    return path;
-}
-
-/// Puts the cluster's labels, not its positions, into the order in which they chain from `label`; returns the
-/// last one.
-Owner chainLabels(Crossings& c, Cluster cluster, Owner label) {
-    if (cluster.last - cluster.first == 1) return c[cluster.first].after;
-    const auto begin = c.begin() + static_cast<std::ptrdiff_t>(cluster.first);
-    const Crossings sorted(begin, c.begin() + static_cast<std::ptrdiff_t>(cluster.last));
-    auto at = begin;
-    for (std::size_t i : chain(sorted, {0, sorted.size()}, label)) {
-        at->before = sorted[i].before;
-        at->after = sorted[i].after;
-        ++at;
-    }
-    return c[cluster.last - 1].after;
 }
 
 /// The label that leads into a cluster which leaves it as it was: a corner that only touches the border. The
@@ -113,25 +74,13 @@ bool holdsBase(const Crossings& c, Cluster cluster, bool circle) {
                        });
 }
 
-/// Whether the cluster leaves any label as it was and does not know this one: something touches the border
-/// from outside, behind an edge that touches it too.
-bool passesBy(const Crossings& c, Cluster cluster, Owner label) {
-    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        int surplus = 0;
-        for (std::size_t j = cluster.first; j < cluster.last; ++j)
-            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
-        if (surplus != 0 || c[i].before == label) return false;
-    }
-    return true;
-}
-
 /// The label before the first crossing: the first cluster that changes labels decides. If none does, the
 /// whole border but for their insides has one owner: the base's, unless it lies in a cluster that can be
 /// sorted.
-Owner firstLabel(const Crossings& c, Owner base, bool circle) {
+Owner firstLabel(const Crossings& c, Owner base, bool circle, double limit) {
     std::optional<Owner> touching;
     for (std::size_t first = 0; first < c.size();) {
-        const Cluster cluster{first, clusterEnd(c, first)};
+        const Cluster cluster{first, clusterEnd(c, first, limit)};
         if (const std::optional<Owner> label = labelBefore(c, cluster)) return *label;
         if (!touching && holdsBase(c, cluster, circle)) touching = labelAroundVertex(c, cluster);
         first = cluster.last;
@@ -165,65 +114,96 @@ void sortCrossings(Crossings& c) {
               [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
 }
 
-}  // namespace
-
-namespace {
-
-/// What the next cluster expects, or the start of the circle behind the last one.
-std::optional<Owner> labelAfter(const Crossings& c, Cluster cluster, bool circle, Owner start) {
-    if (cluster.last < c.size()) return labelBefore(c, {cluster.last, clusterEnd(c, cluster.last)});
-    return circle ? std::optional(start) : std::nullopt;
-}
-
-/// Segments that meet on the border may end there a rounding apart, one inside and one outside, and then a
-/// crossing is missing. The cluster leads to what comes next, if any of its crossings does.
-Owner mendEnd(Crossings& c, Cluster cluster, Owner label, std::optional<Owner> next) {
-    if (!next || *next == label) return label;
-    for (std::size_t i = cluster.first; i < cluster.last; ++i)
-        if (c[i].after == *next) return c[cluster.last - 1].after = *next;
+/// The label that a cluster leads to: it is entered once more often than it is left.
+Owner labelAfter(const Crossings& c, Cluster cluster, Owner label) {
+    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
+        int surplus = 0;
+        for (std::size_t j = cluster.first; j < cluster.last; ++j)
+            surplus += (c[j].after == c[i].after) - (c[j].before == c[i].after);
+        if (surplus > 0) return c[i].after;
+    }
     return label;
 }
 
-}  // namespace
-
-namespace {
-
-/// Puts the labels in order; `first` becomes the label before the first crossing. Returns the conflicts, and
-/// as many more as crossings were found missing.
-int orderLabels(Crossings& c, bool circle, Owner base, double limit, Owner& first_label) {
-    noteDoubts(c, limit);
-    const Owner start = first_label = firstLabel(c, base, circle);
-    Owner label = start;
-    int conflicts = 0;
+/// Whether the labels chain from `label` through all clusters that change it, and around the circle.
+bool chainsFrom(const Crossings& c, Owner label, bool circle, double limit) {
+    const Owner start = label;
     for (std::size_t first = 0; first < c.size();) {
-        const Cluster cluster{first, clusterEnd(c, first)};
-        first = cluster.last;
-        if (passesBy(c, cluster, label)) {
-            for (std::size_t i = cluster.first; i < cluster.last; ++i) c[i].before = c[i].after = label;
-            continue;
-        }
+        const Cluster cluster{first, clusterEnd(c, first, limit)};
         const std::optional<Owner> expected = labelBefore(c, cluster);
-        if (expected && *expected != label) ++conflicts;
-        label = chainLabels(c, cluster, expected.value_or(label));
-        if (cluster.last - cluster.first > 1)
-            label = mendEnd(c, cluster, label, labelAfter(c, cluster, circle, start));
+        if (expected && *expected != label) return false;
+        label = labelAfter(c, cluster, label);
+        first = cluster.last;
     }
-    if (circle && label != start) ++conflicts;
-    return conflicts;
+    return !circle || label == start;
 }
 
-bool chains(const Crossings& c) {
+/// The label before the first crossing. Near a tangent much may be doubted, and then a cluster may hide what
+/// its crossings say: so first as if little were.
+Owner startLabel(Crossings& c, Owner base, bool circle) {
+    constexpr double kLittle = 0x1p-46;
+    Owner label = base;
+    for (const double limit : {kLittle, HUGE_VAL}) {
+        noteDoubts(c, limit);
+        label = firstLabel(c, base, circle, limit);
+        if (chainsFrom(c, label, circle, limit)) break;
+    }
+    return label;
+}
+
+/// Whether the labels chain in the order of the crossings, from `label` and around the circle.
+bool chainsInOrder(const Crossings& c, Owner label, bool circle) {
+    for (const BorderCrossing& x : c) {
+        if (x.before != label) return false;
+        label = x.after;
+    }
+    return !circle || label == c.front().before;
+}
+
+/// The owner behind the last crossing, where `start` is the one before the first: labels are entered as often
+/// as they are left, but for these two. None where the map is open.
+std::optional<Owner> endLabel(const Crossings& c, Owner start) {
+    std::vector<Owner> entered{start}, left;
+    for (const BorderCrossing& x : c) entered.push_back(x.after), left.push_back(x.before);
+    std::sort(entered.begin(), entered.end());
+    std::sort(left.begin(), left.end());
+    std::optional<Owner> end;
+    std::size_t at = 0;
+    for (const Owner owner : entered) {
+        if (at < left.size() && left[at] == owner) {
+            ++at;
+            continue;
+        }
+        if (end) return std::nullopt;
+        end = owner;
+    }
+    return end;
+}
+
+/// Stretches from each crossing to the next.
+void shareInOrder(const Crossings& c, Owner start, std::int64_t from, std::int64_t to,
+                  std::vector<BorderShare>& shares) {
+    shares.push_back({start, c.front().position - from});
     for (std::size_t i = 0; i + 1 < c.size(); ++i)
-        if (c[i].after != c[i + 1].before) return false;
-    return true;
+        shares.push_back({c[i].after, c[i + 1].position - c[i].position});
+    shares.push_back({c.back().after, to - c.back().position});
+}
+
+/// An owner has what lies before the crossings that leave it, less what lies before those that enter it: that
+/// holds in whatever order rounding has put them.
+void shareInAnyOrder(const Crossings& c, Owner end, std::int64_t from, std::int64_t to, Owner start,
+                     std::vector<BorderShare>& shares) {
+    shares.push_back({start, -from});
+    for (const BorderCrossing& x : c) {
+        shares.push_back({x.before, x.position});
+        shares.push_back({x.after, -x.position});
+    }
+    shares.push_back({end, to});
 }
 
 }  // namespace
 
 int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>& shares) {
-    // Near a tangent much may be doubted, and then more labels change places than need to: so first as if
-    // little were.
-    constexpr double kLittle = 0x1p-46;
     shares.clear();
     if (c.empty()) {
         shares.push_back({base, kWhole});
@@ -231,20 +211,19 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     }
     sortCrossings(c);
     if (circle) cutInLongestGap(c);
-    const bool much =
-        std::any_of(c.begin(), c.end(), [](const BorderCrossing& x) { return x.doubt > kLittle; });
-    const Crossings doubted = much ? c : Crossings();
-    Owner start = base;
-    int conflicts = orderLabels(c, circle, base, much ? kLittle : HUGE_VAL, start);
-    if (much && (conflicts != 0 || !chains(c))) {
-        c = doubted;
-        conflicts = orderLabels(c, circle, base, HUGE_VAL, start);
+    const std::int64_t from = circle ? c.front().position : 0, to = from + kWhole;
+    const Owner start = startLabel(c, base, circle);
+    if (chainsInOrder(c, start, circle)) {
+        shareInOrder(c, start, from, to, shares);
+        return 0;
     }
-    shares.push_back({start, circle ? 0 : c.front().position});
-    for (std::size_t i = 0; i + 1 < c.size(); ++i)
-        shares.push_back({c[i].after, c[i + 1].position - c[i].position});
-    shares.push_back({c.back().after, (circle ? c.front().position + kWhole : kWhole) - c.back().position});
-    return conflicts;
+    const std::optional<Owner> end = endLabel(c, start);
+    const bool closed = end && (!circle || *end == start);
+    if (closed)
+        shareInAnyOrder(c, *end, from, to, start, shares);
+    else
+        shareInOrder(c, start, from, to, shares);
+    return closed ? 0 : 1;
 }
 
 }  // namespace edgewise

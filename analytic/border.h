@@ -27,11 +27,11 @@ struct BorderShare {
     std::int64_t share;
 };
 
-/// Shares of the border that sum to exactly 2^60. Crossings nearer to each other than their doubt are put in
-/// the order in which their labels chain, since rounding may have swapped them. `circle`: the border closes,
-/// order is in turns in (-1/2, 1/2] and so is the position; otherwise that runs from 0 to 2^60. Sorts
-/// `crossings`; the result does not depend on their order. Returns the number of stretches, longer than doubt
-/// explains, whose two ends name different owners.
+/// Shares of the border that sum to exactly 2^60. Only the owner before the first crossing is a question of
+/// their order; crossings nearer to each other than their doubt are asked for it together, since rounding may
+/// have swapped them. `circle`: the border closes, order is in turns in (-1/2, 1/2] and so is the position;
+/// otherwise that runs from 0 to 2^60. Sorts `crossings`; the result does not depend on their order. Returns
+/// 1 where labels are not left as often as they are entered: the map is open there. Else 0.
 int shareBorder(std::vector<BorderCrossing>& crossings, bool circle, Owner base,
                 std::vector<BorderShare>& shares);
 

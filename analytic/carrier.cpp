@@ -110,6 +110,10 @@ Carrier depthCarrier(const ScreenScene& scene, LineRef ref) {
     line.B = twoSum(p.dz_dy, -q.dz_dy);
     line.C = twoSum(p.z_anchor, -q.z_anchor);
     line.anchor = scene.anchor_px;
+    // Where a line rises across a cell by less than the sweep can tell, it would not run inside any: it
+    // counts as horizontal everywhere. 2^-71 of 1/16 px, the narrowest cell, is 2^-75 px; at a corner of the
+    // screen the line moves by 2^-71 of the way from the anchor.
+    if (std::abs(line.A.hi) < 0x1p-71 * std::abs(line.B.hi)) line.A = {};
     return line;
 }
 

@@ -40,7 +40,7 @@ struct VisibilityCounts {
     std::uint64_t depth_lines = 0;  ///< pairs of planes that change order inside a leaf
     std::uint64_t exact_depth = 0;  ///< depth comparisons that the filter left to exact arithmetic
     std::uint64_t hidden = 0;       ///< (cell, triangle) pairs dropped behind a covering triangle
-    std::uint64_t closings = 0;     ///< pieces that close what rounded planes left open in a thin slab
+    std::uint64_t closings = 0;     ///< pieces, longer than rounding, that close what planes left open
 
     void add(const VisibilityCounts& other);
 };

@@ -88,8 +88,9 @@ bool clipDepthLine(const CellFrame& frame, LeafLine& line) {
         clip.entering(slope > 0.0 ? -1 : 1);
         clip.leaving(slope > 0.0 ? 1 : -1);
     } else {
-        const FinePoint p = pointAtY(c, border(frame.cell.min.y));
-        if (frame.column(p.grid.x + p.rest.x) != 0) return false;
+        const FineCoordinate x = xOf(pointAtY(c, border(frame.cell.min.y)));
+        const bool right_of_left = difference(x, border(frame.cell.min.x)) > 0.0;
+        if (!right_of_left || difference(x, border(frame.cell.max.x)) > 0.0) return false;
     }
     if (!line.runsInside()) return false;
     clip.finish(true, true);
@@ -103,7 +104,7 @@ bool clipHorizontalEdge(const CellFrame& frame, const Carrier& edge, LeafHorizon
     const FineCoordinate y{edge.a.y, 0.0};
     const FinePoint low = edge.b.x <= cell.min.x ? finePoint(border(cell.min.x), y) : gridPoint(edge.b);
     const FinePoint high = edge.a.x > cell.max.x ? finePoint(border(cell.max.x), y) : gridPoint(edge.a);
-    out = {edge, orderKey(y, frame.origin.y), y, low, high, frame.localX(low), frame.localX(high)};
+    out = {edge, orderKey(y, frame.origin.y), y, low, high};
     return true;
 }
 

@@ -20,7 +20,7 @@ struct CellFrame {
     double localY(FineCoordinate y) const { return (y.grid - origin.y) + y.rest; }
     /// Saturates far outside the guard band.
     OrderKey key(FineCoordinate y) const;
-    /// -1 left of the cell, 0 within its columns, +1 right of it.
+    /// -1 left of the cell, 0 within its columns, +1 right of it; for abscissae on the grid.
     int column(double grid_x) const { return grid_x <= cell.min.x ? -1 : grid_x > cell.max.x ? 1 : 0; }
 };
 
@@ -56,13 +56,12 @@ struct LeafLine {
     }
 };
 
-/// A horizontal edge or line of equal depth: from x_low to x_high from the origin.
+/// A horizontal edge or line of equal depth, from low to high.
 struct LeafHorizontal {
     Carrier carrier;
     OrderKey key;
     FineCoordinate y;
     FinePoint low, high;
-    double x_low, x_high;
 };
 
 /// line.carrier, an edge that is not horizontal, clipped. False where it neither runs inside nor left of the

@@ -118,8 +118,9 @@ EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first,
         return;
     }
     Piece piece;
-    // An end that counts as inside may lie past the rounded chord: the crossing is not before it. [E12]
-    const real entry = in_b > 0.5 ? smaller(-c, line.t_b) : -c, exit = in_a > 0.5 ? larger(c, line.t_a) : c;
+    // A short piece may count as leaving where its line enters, and an end may lie past the rounded chord: the
+    // crossing is on the segment all the same. [E4]
+    const real entry = larger(smaller(-c, line.t_b), line.t_a), exit = smaller(larger(c, line.t_a), line.t_b);
     piece.t1 = in_a > 0.5 ? line.t_a : entry;
     piece.t2 = in_b > 0.5 ? line.t_b : exit;
     piece.length = in_a + in_b > 1.5 ? line.length : larger(piece.t2 - piece.t1, none);

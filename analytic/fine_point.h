@@ -12,16 +12,23 @@ namespace edgewise {
 
 using DoubleDouble = f64::dd;
 
-/// One coordinate of a FinePoint: grid + rest px.
+/// One coordinate of a FinePoint: grid + rest px. The rest is a multiple of 2^-76 px, so that ordinates of
+/// one OrderKey are equal, and what two lines meet in differs from itself in no bit below the rounding of
+/// double-double.
 struct FineCoordinate {
     double grid = 0.0;
     double rest = 0.0;
 };
 
-/// origin + offset, where origin is on the grid.
+/// p - q: its sign, and whether it is 0, are exact.
+inline double difference(FineCoordinate p, FineCoordinate q) {
+    return (p.grid - q.grid) + (p.rest - q.rest);
+}
+
+/// origin + offset, where origin is on the grid, rounded to 2^-76 px.
 inline FineCoordinate fineCoordinate(double origin, DoubleDouble offset) {
     const double steps = std::nearbyint(offset.hi * 0x1p32) * 0x1p-32;
-    return {origin + steps, (offset.hi - steps) + offset.lo};
+    return {origin + steps, std::nearbyint(((offset.hi - steps) + offset.lo) * 0x1p76) * 0x1p-76};
 }
 
 /// p - origin in double-double, exact but for the last bits of the rest; origin on the grid.
@@ -35,7 +42,7 @@ inline DoubleDouble offsetFrom(FineCoordinate p, double origin) {
 __extension__ typedef __int128 OrderKey;
 inline OrderKey orderKey(FineCoordinate p, double origin) {
     const auto steps = static_cast<std::int64_t>((p.grid - origin) * 0x1p32);
-    const auto rest = static_cast<std::int64_t>(std::nearbyint(p.rest * 0x1p76));
+    const auto rest = static_cast<std::int64_t>(p.rest * 0x1p76);
     return (static_cast<OrderKey>(steps) << 44) + rest;
 }
 

@@ -166,11 +166,12 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
-        const FinePoint low = pointAtX(c, border(frame.cell.min.x)),
-                        high = pointAtX(c, border(frame.cell.max.x));
-        const OrderKey key = frame.key(yOf(low));
+        FineCoordinate y = yOf(pointAtX(c, border(frame.cell.min.x)));
+        if (frame.key(y) == frame.bottom) y.rest -= 0x1p-76;  // on the border, which belongs to this cell
+        const OrderKey key = frame.key(y);
         if (key > frame.top && key < frame.bottom)
-            horizontals.push_back({c, key, yOf(low), low, high, frame.localX(low), frame.localX(high)});
+            horizontals.push_back(
+                {c, key, y, finePoint(border(frame.cell.min.x), y), finePoint(border(frame.cell.max.x), y)});
         return;
     }
     if (!clipDepthLine(frame, line)) return;
@@ -223,11 +224,8 @@ void LeafLines::sortKeys() {
     }
     for (const LeafEvent& event : events) addKey(event.key, yOf(event.point));
     for (const LeafHorizontal& h : horizontals) addKey(h.key, h.y);
-    // Of ordinates that share a key the one nearest to the grid stands for all: a vertex, if there is one.
-    const auto byKey = [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first < b.first : std::abs(a.second.rest) < std::abs(b.second.rest);
-    };
-    std::sort(key_scratch_.begin(), key_scratch_.end(), byKey);
+    std::sort(key_scratch_.begin(), key_scratch_.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
     keys.assign(1, frame.top), ordinates.assign(1, border(frame.cell.min.y));
     for (const auto& [key, y] : key_scratch_) {
         if (key == keys.back()) continue;

@@ -14,9 +14,7 @@ bool before(const FinePoint& p, const FinePoint& q) {
 
 bool joins(const SegmentPiece& p, const SegmentPiece& q) {
     if (p.key != q.key || p.left != q.left || p.right != q.right) return false;
-    const bool same_y = p.b.grid.y == q.a.grid.y && p.b.rest.y == q.a.rest.y;
-    const bool horizontal = p.a.grid.y == p.b.grid.y && p.a.rest.y == p.b.rest.y;
-    return same_y && (!horizontal || (p.b.grid.x == q.a.grid.x && p.b.rest.x == q.a.rest.x));
+    return p.b.grid == q.a.grid && p.b.rest == q.a.rest;
 }
 
 Carrier carrierOf(const ScreenScene& scene, LineRef ref) {

@@ -46,8 +46,7 @@ class PixelWeights {
 
     /// Terms evaluated since construction: (segment, sample) pairs whose support meets the segment.
     std::uint64_t terms() const;
-    /// Border labels of neighbouring crossings that disagreed by more than rounding explains: 0 on a closed
-    /// map.
+    /// Samples on whose border some owner is not left as often as it is entered: 0 on a closed map.
     std::uint64_t label_conflicts() const;
 
   private:

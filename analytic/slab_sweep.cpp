@@ -41,11 +41,9 @@ struct Profile {
 
 /// Where the owner above or below an ordinate changes, or where a horizontal line or the cell ends.
 struct Break {
-    enum Kind { kAbove, kBelow, kLow, kHigh, kLeftBorder, kRightBorder };
-    double x;
-    Kind kind;
-    std::uint32_t index;  ///< of the line, or of the horizontal
-    Owner before, after;
+    FineCoordinate x;
+    int above = 0;  ///< 1 where the owner above changes, -1 where the one below does, else 0
+    Owner before = kBackground, after = kBackground;
 };
 
 /// How often each owner lies above an ordinate, less how often below. Where lines end out of order, one place
@@ -121,9 +119,9 @@ struct SlabSweep::State {
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
     FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
     bool sameProfiles() const;
-    void addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab);
-    FinePoint pointOf(const Break& b, std::size_t slab) const;
-    void emitHorizontal(const Break& from, const Break& to, Owner over, Owner under, std::size_t first,
+    void addBreaks(const Profile& profile, int above, std::size_t slab);
+    void collectBreaks(std::size_t first, std::size_t slab);
+    void emitHorizontal(FineCoordinate from, FineCoordinate to, Owner over, Owner under, std::size_t first,
                         std::size_t slab);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
     double rightBorder() const { return (cell.max.x - origin.x) + kBorderRestPx; }
@@ -196,8 +194,9 @@ void SlabSweep::State::locate(std::size_t slab) {
 /// -1, 0 or 1 as line p runs left of, on or right of line q in the slab. Doubles decide where they can; else
 /// the canonical points, which know nothing of the cell.
 int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab) const {
-    // Double-double points of lines up to 2^21 px long are good to 2^-80 px.
-    constexpr double kSame = 0x1p-78;
+    // Double-double points of lines up to 2^21 px long are good to 2^-80 px, then rounded to multiples of
+    // 2^-76 px: each of one line's two ends may be off by one of them, or the other's.
+    constexpr double kSame = 2 * 0x1p-76;
     const double d = tracks[p].x_mid - tracks[q].x_mid;
     if (std::abs(d) > kUnsure) return d > 0.0 ? 1 : -1;
     const FineCoordinate p0 = xOf(topPoint(p, slab)), q0 = xOf(topPoint(q, slab));
@@ -318,11 +317,17 @@ FinePoint SlabSweep::State::topPoint(std::uint32_t line, std::size_t slab) const
     return tracks[line].top_known ? tracks[line].top : pointAtY(l.carrier, leaf.ordinates[slab]);
 }
 
+/// A piece of a flat line whose ends rounding moved, or led to a vertex, may run against the line though it
+/// runs down: it is turned, for it is integrated along the line.
 void SlabSweep::State::closePiece(std::uint32_t line, const FinePoint& end) {
     Track& t = tracks[line];
     if (!t.open) return;
     const Carrier& c = leaf.lines[line].carrier;
-    out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
+    const double dx = difference(xOf(end), xOf(t.start)), dy = difference(yOf(end), yOf(t.start));
+    if (dx * leaf.lines[line].slope + dy >= 0.0)
+        out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
+    else
+        out->segments.push_back({lineKey(c), c.ref, t.right, t.left, end, t.start});
     t.open = false;
 }
 
@@ -361,91 +366,69 @@ bool SlabSweep::State::sameProfiles() const {
                                                     below.bounds.begin(), below.bounds.end(), same);
 }
 
-void SlabSweep::State::addBreaks(const Profile& profile, Break::Kind kind, std::size_t slab) {
+void SlabSweep::State::addBreaks(const Profile& profile, int above_sign, std::size_t slab) {
     Owner before = profile.first;
     for (const Bound& b : profile.bounds) {
-        const bool ended = leaf.lines[b.line].in1 == leaf.keys[slab];
-        const double x = ended ? leaf.frame.localX(leaf.lines[b.line].exit) : tracks[b.line].x_top;
-        breaks.push_back({std::clamp(x, leftBorder(), rightBorder()), kind, b.line, before, b.after});
+        breaks.push_back({xOf(topPoint(b.line, slab)), above_sign, before, b.after});
         before = b.after;
     }
 }
 
-FinePoint SlabSweep::State::pointOf(const Break& b, std::size_t slab) const {
-    switch (b.kind) {
-        case Break::kAbove:
-        case Break::kBelow:
-            return topPoint(b.index, slab);
-        case Break::kLow:
-            return leaf.horizontals[b.index].low;
-        case Break::kHigh:
-            return leaf.horizontals[b.index].high;
-        case Break::kLeftBorder:
-            return finePoint(border(cell.min.x), {});
-        default:
-            return finePoint(border(cell.max.x), {});
+/// Between the cell's borders by ascending abscissa. It comes from the points at which the pieces of the
+/// lines end, bit for bit: only then do the horizontals close what those leave open.
+void SlabSweep::State::collectBreaks(std::size_t first, std::size_t slab) {
+    breaks.assign(1, {border(cell.min.x)});
+    for (std::size_t h = first; h < next_horizontal; ++h) {
+        breaks.push_back({xOf(leaf.horizontals[h].low)});
+        breaks.push_back({xOf(leaf.horizontals[h].high)});
     }
+    addBreaks(above, 1, slab);
+    addBreaks(below, -1, slab);
+    std::stable_sort(breaks.begin() + 1, breaks.end(),
+                     [](const Break& a, const Break& b) { return difference(a.x, b.x) < 0.0; });
+    breaks.push_back({border(cell.max.x)});
 }
 
 /// Owners change across an ordinate along horizontal lines. Where they change and no line explains it,
-/// rounded planes disagree with each other within a thin slab: a closing piece keeps every owner's boundary
-/// closed.
+/// rounded planes disagree with each other within a thin slab, or lines that meet do so a rounding apart: a
+/// closing piece, however short, keeps every owner's boundary closed. [E16]
 void SlabSweep::State::emitHorizontals(std::size_t slab) {
     const std::size_t first = next_horizontal;
     const OrderKey key = leaf.keys[slab];
     while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key)
         ++next_horizontal;
     if (first == next_horizontal && sameProfiles()) return;
-    breaks.clear();
-    for (std::size_t h = first; h < next_horizontal; ++h) {
-        const auto index = static_cast<std::uint32_t>(h);
-        breaks.push_back({leaf.horizontals[h].x_low, Break::kLow, index, kBackground, kBackground});
-        breaks.push_back({leaf.horizontals[h].x_high, Break::kHigh, index, kBackground, kBackground});
-    }
-    addBreaks(above, Break::kAbove, slab);
-    addBreaks(below, Break::kBelow, slab);
-    breaks.push_back({leftBorder(), Break::kLeftBorder, 0, kBackground, kBackground});
-    breaks.push_back({rightBorder(), Break::kRightBorder, 0, kBackground, kBackground});
-    std::stable_sort(breaks.begin(), breaks.end(), [](const Break& a, const Break& b) { return a.x < b.x; });
+    collectBreaks(first, slab);
     balance.clear();
     balance.add(above.first, 1);
     balance.add(below.first, -1);
-    for (std::size_t i = 0, start = 0; i + 1 < breaks.size(); ++i) {
-        // Of equal ones the end of a horizontal names the point, else the line at which the owner changed
-        // last.
-        const bool named = breaks[start].kind == Break::kLow || breaks[start].kind == Break::kHigh;
-        if (breaks[i].x != breaks[start].x || !named) start = i;
-        if (breaks[i].kind == Break::kAbove || breaks[i].kind == Break::kBelow) {
-            const int sign = breaks[i].kind == Break::kAbove ? 1 : -1;
-            balance.add(breaks[i].after, sign);
-            balance.add(breaks[i].before, -sign);
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        const Break& here = breaks[i];
+        if (here.above != 0) {
+            balance.add(here.after, here.above);
+            balance.add(here.before, -here.above);
         }
-        if (balance.empty() || breaks[i].x >= breaks[i + 1].x) continue;
+        if (balance.empty() || difference(here.x, breaks[i + 1].x) == 0.0) continue;
         balance.pairs(over_under);
         for (const auto& [over, under] : over_under)
-            emitHorizontal(breaks[start], breaks[i + 1], over, under, first, slab);
+            emitHorizontal(here.x, breaks[i + 1].x, over, under, first, slab);
     }
 }
 
-void SlabSweep::State::emitHorizontal(const Break& from, const Break& to, Owner over, Owner under,
+void SlabSweep::State::emitHorizontal(FineCoordinate from, FineCoordinate to, Owner over, Owner under,
                                       std::size_t first, std::size_t slab) {
-    FinePoint low = pointOf(from, slab), high = pointOf(to, slab);
-    // Abscissae that one rounding of a double separates may stand in the other order exactly.
-    const glm::dvec2 across{high.grid.x - low.grid.x, high.rest.x - low.rest.x};
-    if (across.x + across.y == 0.0) return;
-    if (across.x + across.y < 0.0) std::swap(low, high), std::swap(over, under);
-    const auto emit = [&](std::uint64_t line_key, LineRef line, FineCoordinate y) {
-        out->segments.push_back(
-            {line_key, line, over, under, finePoint(xOf(high), y), finePoint(xOf(low), y)});
+    if (difference(from, to) > 0.0) std::swap(from, to), std::swap(over, under);
+    const FineCoordinate y = leaf.ordinates[slab];
+    const auto emit = [&](std::uint64_t line_key, LineRef line) {
+        out->segments.push_back({line_key, line, over, under, finePoint(to, y), finePoint(from, y)});
     };
     for (std::size_t h = first; h < next_horizontal; ++h) {
         const LeafHorizontal& line = leaf.horizontals[h];
-        if (line.x_low <= from.x && to.x <= line.x_high)
-            return emit(lineKey(line.carrier), line.carrier.ref, line.y);
+        if (difference(xOf(line.low), from) <= 0.0 && difference(to, xOf(line.high)) <= 0.0)
+            return emit(lineKey(line.carrier), line.carrier.ref);
     }
-    if (to.x - from.x <= kUnsure) return;
-    ++out->counts.closings;
-    emit(closingKey(leaf.ordinates[slab]), LineRef::closing(), leaf.ordinates[slab]);
+    if (difference(to, from) > kUnsure) ++out->counts.closings;
+    emit(closingKey(y), LineRef::closing());
 }
 
 SlabSweep::SlabSweep() : state_(std::make_unique<State>()) {}

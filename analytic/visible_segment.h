@@ -31,8 +31,8 @@ struct CarrierLine {
 };
 
 /// A maximal visible piece of a line between two owners. Directed a -> b along its line's direction:
-/// `left` is the owner at smaller x (horizontal: at smaller y), and receives +F(a, b); `right` receives -F(a,
-/// b).
+/// `left` is the owner at smaller x (horizontal: at smaller y; where rounding turned a flat piece: as seen
+/// along a -> b), and receives +F(a, b); `right` receives -F(a, b).
 struct VisibleSegment {
     FinePoint a, b;
     double length = 0.0;  ///< |b - a| px, rounded once

@@ -95,13 +95,8 @@ MapScan::MapScan(const VisibleMap& map, glm::dvec2 sample_px, Axes axes)
         Real au = local(s.a.grid.x, s.a.rest.x, sample_px.x), av = local(s.a.grid.y, s.a.rest.y, sample_px.y);
         Real bu = local(s.b.grid.x, s.b.rest.x, sample_px.x), bv = local(s.b.grid.y, s.b.rest.y, sample_px.y);
         Owner left = s.left, right = s.right;
-        if (exchanged_) {
-            // The owner at smaller x is the one at larger y where x grows with y.
-            if (bu > au) std::swap(left, right);
-            std::swap(au, av);
-            std::swap(bu, bv);
-        }
-        if (av > bv) std::swap(au, bu), std::swap(av, bv);
+        if (exchanged_) std::swap(au, av), std::swap(bu, bv), std::swap(left, right);
+        if (av > bv) std::swap(au, bu), std::swap(av, bv), std::swap(left, right);
         if (av < bv) walls_.push_back({au, av, bu, bv, left, right});
     }
 }
