@@ -1,6 +1,7 @@
 #include "pipeline/shading_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "analytic/fine_point.h"
@@ -15,9 +16,13 @@ FixedWeight toFixed(double x) {
     return static_cast<FixedWeight>(std::nearbyint(x * 0x1p60));
 }
 
+using Lanes = std::array<std::int64_t, OwnerTable::kLanes>;
+
 /// On the way sums may leave the range: they come back, modulo 2^64.
-void wrappingAdd(FixedWeight& sum, FixedWeight term) {
-    sum = static_cast<FixedWeight>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(term));
+void addLanes(Lanes& sum, const Lanes& terms, std::int64_t sign) {
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[i]) +
+                                           static_cast<std::uint64_t>(sign * terms[i]));
 }
 
 glm::dvec2 toGrid(glm::dvec2 offset_px) {
@@ -67,15 +72,16 @@ void ShadingPointFinder::add(const VisibleSegment& segment, const CarrierLine& l
     if (left == right) return;
     if (area_) area_->add(segment, line, left, right);
     if (samples_ > 0) addEdge(segment, left, right);
+    Lanes x{}, y{};
+    FixedWeight any = 0;
     for (int i = 0; i < count_; ++i) {
         const glm::dvec2 m = moments_.moment(segment, line, first_ + glm::dvec2(i, 0));
-        const FixedWeight x = toFixed(m.x), y = toFixed(m.y);
-        if (x == 0 && y == 0) continue;
-        wrappingAdd(moment_x_.row(left).weight[i], x);
-        wrappingAdd(moment_x_.row(right).weight[i], -x);
-        wrappingAdd(moment_y_.row(left).weight[i], y);
-        wrappingAdd(moment_y_.row(right).weight[i], -y);
+        x[i] = toFixed(m.x), y[i] = toFixed(m.y);
+        any |= x[i] | y[i];
     }
+    if (any == 0) return;
+    addLanes(moment_x_.row(left).weight, x, 1), addLanes(moment_x_.row(right).weight, x, -1);
+    addLanes(moment_y_.row(left).weight, y, 1), addLanes(moment_y_.row(right).weight, y, -1);
 }
 
 /// Segments lead towards +y, or -x: their left owner has the smaller x, so where they also lead towards +x it

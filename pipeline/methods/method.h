@@ -25,7 +25,7 @@ enum class ShadingMode {
     kClosest,   ///< at the owner's point nearest to the pixel's sample
     kCentroid,  ///< at the centroid of what is seen of the owner in the support
     kSamples,   ///< the mean over up to ShadingChoice::samples points of what is seen
-    kHit        ///< sampling methods: each sample where it lands
+    kHit        ///< sampling methods: each sample where it lands; nsaa: kClosest, and says so
 };
 
 struct ShadingChoice {

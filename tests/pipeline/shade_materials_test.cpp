@@ -11,17 +11,25 @@
 namespace edgewise {
 namespace {
 
+Film movedFilm(glm::dvec2 offset_px) {
+    Film film = test::makeFilm(8, 8);
+    film.debug_offset_px = offset_px;
+    return film;
+}
+
 struct Shot {
     Scene scene;
     ResolvedCamera camera = test::makeOrthographic(1.0);
-    Film film = test::makeFilm(8, 8);
+    Film film;
     ScreenPieces pieces;
     ScreenScene screen;
     Shading shading;
 
-    explicit Shot(Scene what, const ResolvedCamera& from = test::makeOrthographic(1.0))
+    explicit Shot(Scene what, const ResolvedCamera& from = test::makeOrthographic(1.0),
+                  glm::dvec2 offset_px = glm::dvec2(0.0))
         : scene(std::move(what)),
           camera(from),
+          film(movedFilm(offset_px)),
           screen(project(scene, camera, film, pieces)),
           shading(scene, camera, film, screen, pieces) {}
     glm::dvec3 at(glm::dvec2 p_px = {3, 4.5}) const { return shading.atPoint(0, p_px).color; }
@@ -268,6 +276,26 @@ TEST(Materials, ConstantShadesAreThoseOfEveryPlace) {
     std::printf("seed 64: %zu constant, %zu mostly metal, %zu with a normal map\n", constant, metals, bumped);
     EXPECT_GT(metals, 100u);
     EXPECT_GT(bumped, 100u);
+}
+
+TEST(Materials, WholePixelsDoNotShow) {
+    Scene scene = plate();
+    scene.lights = {sun(kSun), Light()};
+    scene.lights[1].position_world = {0.3, 0.2, -0.1};
+    scene.lights[1].range = 3.0;
+    scene.materials[0].metallic = 0.5, scene.materials[0].roughness = 0.3;
+    scene.geometry[0].normal_world = {{0.1, 0, 1}, {0, -0.2, 1}, {0.3, 0, 1}};
+    const glm::vec4 left = texelOf(glm::normalize(glm::dvec3(-1, 0, 1))), right = texelOf(kLean);
+    addImage(scene, scene.materials[0].normal_map, {left, right, right, left}, 2);
+    scene.textures[0] = {.image = 0};  // linear, with levels
+    const glm::dvec2 offset(16384, -8191);
+    const Shot here(scene, test::makePerspective()), there(scene, test::makePerspective(), offset);
+    glm::dvec3 before(0.0);
+    for (const glm::dvec2 p : {glm::dvec2(1.25, 2.5), glm::dvec2(3.0, 4.75), glm::dvec2(12, -3)}) {
+        EXPECT_EQ(here.shading.closest(0, p), there.shading.closest(0, p + offset));
+        EXPECT_NE(here.shading.closest(0, p).color, before);
+        before = here.shading.closest(0, p).color;
+    }
 }
 
 TEST(Materials, PerspectiveAndLampsVary) {
