@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "pipeline/atomic_file.h"
@@ -32,16 +33,23 @@ void requireFinite(const PixelBox& box, std::size_t index, double value) {
         throw FailureError(pixelName(box, index), fmt::format("is {}, not a number", value));
 }
 
-std::vector<float> exrPixels(const ImageBuffer& image) {
-    std::vector<float> out;
-    out.reserve(image.rgba.size() * kExrChannels);
+/// The bits of every pixel's channels: float32, and uint32 where an AOV is a whole number.
+std::vector<std::uint32_t> exrPixels(const ImageBuffer& image) {
+    const auto& channels = image.aov.channels;
+    std::vector<std::uint32_t> out;
+    out.reserve(image.rgba.size() * (kExrChannels + channels.size()));
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
         for (int c = 0; c < 4; ++c) {
             const float value = static_cast<float>(image.rgba[i][c]);
             requireFinite(image.box, i, value);
-            out.push_back(value);
+            out.push_back(floatBits(value));
         }
-        out.push_back(image.edge[i]);
+        out.push_back(floatBits(image.edge[i]));
+        const std::uint32_t* more = image.aov.pixel(i);
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            if (!channels[c].whole_number) requireFinite(image.box, i, std::bit_cast<float>(more[c]));
+            out.push_back(more[c]);
+        }
     }
     return out;
 }
@@ -60,7 +68,19 @@ std::vector<unsigned char> pngPixels(const ImageBuffer& image, double exposure_e
     return out;
 }
 
-OIIO::ImageSpec exrSpec(const PixelBox& box, const WriteOptions& options) {
+void addAovs(OIIO::ImageSpec& spec, const AovImage& aov) {
+    spec.channelformats.assign(kExrChannels, OIIO::TypeDesc::FLOAT);
+    for (const AovChannel& channel : aov.channels) {
+        spec.channelnames.push_back(channel.name);
+        spec.channelformats.push_back(channel.whole_number ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+        if (channel.name == "Z") spec.z_channel = static_cast<int>(spec.channelnames.size()) - 1;
+    }
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+    for (const auto& [name, value] : aov.metadata) spec.attribute(name, value);
+}
+
+OIIO::ImageSpec exrSpec(const ImageBuffer& image, const WriteOptions& options) {
+    const PixelBox& box = image.box;
     OIIO::ImageSpec spec(box.width(), box.height(), kExrChannels, OIIO::TypeDesc::FLOAT);
     spec.x = box.x0;
     spec.y = box.y0;
@@ -73,6 +93,7 @@ OIIO::ImageSpec exrSpec(const PixelBox& box, const WriteOptions& options) {
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("DateTime", "");  // else OpenImageIO writes the hour, and no two files are alike
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kRec709.size()), kRec709.data());
+    if (!image.aov.channels.empty()) addAovs(spec, image.aov);
     return spec;
 }
 
@@ -91,7 +112,8 @@ std::vector<unsigned char> encode(const char* format, const OIIO::ImageSpec& spe
     OIIO::Filesystem::IOVecOutput target(bytes);
     auto output = OIIO::ImageOutput::create(format, &target);
     if (!output || !output->open(std::string("picture.") + format, spec) ||
-        !output->write_image(spec.format, pixels) || !output->close())
+        !output->write_image(spec.channelformats.empty() ? spec.format : OIIO::TypeDesc::UNKNOWN, pixels) ||
+        !output->close())
         throw FailureError(format, output ? output->geterror() : OIIO::geterror());
     return bytes;
 }
@@ -108,7 +130,7 @@ ImageFormat imageFormat(const std::filesystem::path& path) {
 
 std::vector<unsigned char> encodeImage(const ImageBuffer& image, ImageFormat format,
                                        const WriteOptions& options) {
-    OIIO::ImageSpec spec = format == ImageFormat::kExr ? exrSpec(image.box, options) : pngSpec(image.box);
+    OIIO::ImageSpec spec = format == ImageFormat::kExr ? exrSpec(image, options) : pngSpec(image.box);
     addMetadata(spec, options);
     if (format == ImageFormat::kExr) return encode("exr", spec, exrPixels(image).data());
     return encode("png", spec, pngPixels(image, options.exposure_ev).data());

@@ -21,10 +21,10 @@ enum class ImageFormat { kExr, kPng };
 /// The format that the extension (.exr, .png, in any case) names. Throws InputError for any other.
 ImageFormat imageFormat(const std::filesystem::path& path);
 
-/// EXR: float32 R, G, B, A and `edge`, linear Rec.709, zip; dataWindow is the box, displayWindow the whole
-/// picture. PNG: 8-bit RGB of the box: exposed, clamped to [0, 1], sRGB-encoded, rounded to nearest. The same
-/// image and options give the same bytes. Throws FailureError for a pixel that is not finite (in float32 for
-/// EXR), naming it.
+/// EXR: float32 R, G, B, A and `edge`, the AOVs' channels and attributes, linear Rec.709, zip; dataWindow is
+/// the box, displayWindow the whole picture. PNG: 8-bit RGB of the box: exposed, clamped to [0, 1],
+/// sRGB-encoded, rounded to nearest. The same image and options give the same bytes. Throws FailureError for
+/// a pixel that is not finite (in float32 for EXR), naming it.
 std::vector<unsigned char> encodeImage(const ImageBuffer& image, ImageFormat format,
                                        const WriteOptions& options);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/cli/aov_options.h"
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/filter_options.h"
 #include "pipeline/cli/interrupt.h"
@@ -31,7 +32,7 @@ struct RenderArguments {
     FilterArguments filter;
     MethodArguments making;
     std::string method = "nsaa";
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, aovs;
     std::optional<std::string> exposure, stats, dump_stages;
     bool explain = false, quiet = false;
     std::string command_line;
@@ -63,9 +64,10 @@ void checkOutputs(const RenderArguments& arguments) {
 
 /// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in
 /// its file's format.
-void requireMemoryFor(const PixelBox& crop) {
-    constexpr double kBytesPerPixel = 4 * 8 + 4 + 2 * 5 * 4;  // RGBA, edge; five floats, raw and compressed
-    const double needed = kBytesPerPixel * crop.width() * crop.height();
+void requireMemoryFor(const PixelBox& crop, const std::set<Aov>& aovs) {
+    // RGBA, edge; five floats, raw and compressed; AOVs, held, raw and compressed
+    const double bytes_per_pixel = 4 * 8 + 4 + 2 * 5 * 4 + 3 * 4 * double(aovChannelCount(aovs));
+    const double needed = bytes_per_pixel * crop.width() * crop.height();
     const double machine =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (needed > machine)
@@ -112,6 +114,7 @@ void render(const RenderArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const MethodSpec method = parseMethod(arguments.method);
     RenderOptions options = readMethodOptions(arguments.making);
+    options.aovs = readAovs(arguments.aovs, arguments.outputs);
     if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
     checkAbilities(arguments.making, method);
 
@@ -119,7 +122,7 @@ void render(const RenderArguments& arguments) {
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     const Picture picture = loadPicture(arguments.picture, progress);
     warnOfIgnored(picture.scene);
-    requireMemoryFor(picture.film.crop);
+    requireMemoryFor(picture.film.crop, options.aovs);
     makeDumpFolder(options);
     const MethodResult result =
         runMethod(method, {picture.scene, picture.camera, picture.film, filter, options, progress});
@@ -151,6 +154,7 @@ void addRender(CLI::App& program, const std::string& command_line) {
     command
         ->add_option("--dump-stages", arguments->dump_stages, "every intermediate as data and as a picture")
         ->type_name("DIR");
+    addAovOptions(*command, arguments->aovs);
     command->add_flag("--explain", arguments->explain, "print the plan in words");
     command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
     command->callback([arguments] { render(*arguments); });

@@ -21,6 +21,9 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     watch.book("visibility", result.stages);
     checkCancelled(in.progress);
     result.image = ImageBuffer(in.film.crop);
+    const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);
+    aov.begin(result.image);
+    aov.points(owner, result.image);
     in.progress.stage("shade", in.film.crop.height());
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
         for (int x = in.film.crop.x0; x < in.film.crop.x1; ++x) {
@@ -28,6 +31,8 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
             result.image.rgba[i] = owner[i] == kBackground
                                        ? glm::dvec4(in.options.background, 0.0)
                                        : glm::dvec4(shading.atPoint(owner[i], {x + 0.5, y + 0.5}).color, 1.0);
+            const OwnerWeight whole{owner[i], FixedWeight{1} << kWeightBits};
+            if (aov.weighs()) aov.pixel(x, y, {&whole, 1}, result.image);
         }
         in.progress.advance(1);
     });

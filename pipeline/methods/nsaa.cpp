@@ -36,7 +36,7 @@ Window windowOf(const PixelBox& box, glm::dvec2 offset_px, double reach) {
 /// One thread's scratch, and the time that its two stages took.
 struct TileWorker {
     WeightWorker weights;
-    WeightTile tile;
+    WeightTile tile, every_owner;
     std::vector<StageTime> times;
     std::uint64_t pairs = 0;
 };
@@ -47,6 +47,7 @@ class Nsaa {
         : in_(in),
           screen_(project(in.scene, in.camera, in.film, pieces_)),
           shading_(in.scene, in.camera, in.film, screen_, pieces_),
+          aov_(in.options.aovs, in.scene, in.camera, in.film, screen_, pieces_, shading_),
           dump_(in.options.dump_dir, in.film.crop) {
         watch_.book("project", result_.stages);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
@@ -58,9 +59,12 @@ class Nsaa {
     MethodResult render() {
         const PixelBox& crop = in_.film.crop;
         result_.image = ImageBuffer(crop);
+        aov_.begin(result_.image);
         const std::vector<PixelBox> bands = cutIntoBands(crop);
         in_.progress.stage("weights", static_cast<std::size_t>(crop.height()));
         for (const PixelBox& band : bands) renderBand(band);
+        aov_.samplePoints(in_.progress, result_.image);
+        if (aov_.pointSamples()) watch_.book("aov", result_.stages);
         dump_.finish();
         result_.plan = plan_.entries;
         fillCounts(bands.size());
@@ -72,7 +76,7 @@ class Nsaa {
         const PixelBox box{x, y, x + 1, y + 1};
         cutIntoBands(box);  // throws where --memory does not suffice
         const VisibleMap map = visibleMapOf(box);
-        TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+        TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
         worker.weights.run(map, tiles.segments.ids, plan_.classes, box, offset(), worker.tile);
         PixelReport out;
@@ -105,8 +109,7 @@ class Nsaa {
         const IdLists lists = gather(screen_, grid);
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
-        const std::size_t image =
-            result_.image.rgba.size() * sizeof(glm::dvec4) + result_.image.edge.size() * sizeof(float);
+        const std::size_t image = result_.image.bytes();
         if (image >= limit)
             throw FailureError("--memory", fmt::format("the image alone needs {} MiB", image >> 20));
         auto bands = bandsFor(crop, grid, lists, reachOf(in_.filter), offset(), limit - image);
@@ -132,7 +135,7 @@ class Nsaa {
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
         tbb::enumerable_thread_specific<TileWorker> workers([&] {
-            return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+            return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         });
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
@@ -144,11 +147,15 @@ class Nsaa {
 
     void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {
         const auto& lists = tiles.segments;
+        const auto ids =
+            std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]);
         Stopwatch watch;
-        worker.weights.run(
-            map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
-            plan_.classes, tiles.boxes[t], offset(), worker.tile);
+        worker.weights.run(map, ids, plan_.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
+        if (aov_.weighs()) {
+            fillAovs(map, ids, worker);
+            watch.book("aov", worker.times);
+        }
         dump_.weights(worker.tile);
         worker.pairs += worker.tile.entries.size();
         blend(
@@ -157,7 +164,15 @@ class Nsaa {
         watch.book("blend", worker.times);
     }
 
-    /// Two stages share the tile loop: its wall time is divided as its threads' time was.
+    /// Owners stand for themselves here, not for all that shade alike: where the picture's weights were
+    /// merged, they are computed once more, so that the picture keeps its bits whatever the AOVs.
+    void fillAovs(const VisibleMap& map, std::span<const std::uint32_t> ids, TileWorker& worker) {
+        if (plan_.classes.representative.empty()) return aov_.tile(worker.tile, result_.image);
+        worker.weights.run(map, ids, OwnerClasses{}, worker.tile.box, offset(), worker.every_owner);
+        aov_.tile(worker.every_owner, result_.image);
+    }
+
+    /// Stages share the tile loop: its wall time is divided as its threads' time was.
     void bookTiles(tbb::enumerable_thread_specific<TileWorker>& workers, double wall) {
         double total = 0.0;
         for (const TileWorker& w : workers)
@@ -187,6 +202,7 @@ class Nsaa {
         counts_["depth_lines"] = visibility_counts_.depth_lines;
         counts_["exact_depths"] = visibility_counts_.exact_depth;
         counts_["hidden_pairs"] = visibility_counts_.hidden;
+        if (aov_.weighs()) counts_["cryptomatte_truncated_pixels"] = aov_.truncatedPixels();
         result_.counts = counts_;
     }
 
@@ -197,6 +213,7 @@ class Nsaa {
     ScreenScene screen_;
     Shading shading_;
     Plan plan_;
+    AovPass aov_;
     StageDump dump_;
     VisibilityCounts visibility_counts_;
     std::map<std::string, std::uint64_t> counts_;

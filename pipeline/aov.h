@@ -1,0 +1,85 @@
+// --aov: what else is known of a pixel, as channels of the EXR.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/cryptomatte.h"
+#include "pipeline/image_buffer.h"
+#include "pipeline/shade.h"
+#include "pipeline/weights.h"
+
+namespace edgewise {
+
+struct Progress;
+
+/// Point-sampled, of the nearest surface at the pixel's sample and unfiltered:
+///     depth        Z              distance along the view axis, world units; kBackgroundDepth where nothing
+///                                 is
+///     normal       N.X N.Y N.Z    what is shaded with: unit, world space, towards the viewer; 0 where
+///                                 nothing is
+///     index        index          uint32, the triangle's index; 4294967295 where nothing is
+/// Integrated over the filter's support:
+///     owners       owners         uint32, owners with a weight other than 0, the background among them
+///     cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
+enum class Aov { kDepth, kNormal, kIndex, kOwners, kCryptomatte };
+
+/// In the order of their channels.
+const std::vector<std::pair<std::string, Aov>>& aovNames();
+
+inline constexpr double kBackgroundDepth = 1e10;  // as Blender writes it; a float32 without rounding
+
+/// float32 or uint32 values that these add to each pixel.
+std::size_t aovChannelCount(const std::set<Aov>& wanted);
+
+/// Fills the AOVs of one picture; refers to all its arguments. The fill functions may be called from many
+/// threads for different pixels.
+class AovPass {
+  public:
+    AovPass(const std::set<Aov>& wanted, const Scene& scene, const ResolvedCamera& camera, const Film& film,
+            const ScreenScene& screen, const ScreenPieces& pieces, const Shading& shading);
+
+    /// Whether somebody must call pixel() or tile().
+    bool weighs() const { return wants(Aov::kOwners) || wants(Aov::kCryptomatte); }
+    bool pointSamples() const { return wants(Aov::kDepth) || wants(Aov::kNormal) || wants(Aov::kIndex); }
+
+    /// Makes the channels of the whole image.
+    void begin(ImageBuffer& image) const;
+
+    /// Looks up the owner at each pixel's sample and fills the point-sampled channels. Throws Interrupted.
+    void samplePoints(Progress& progress, ImageBuffer& image) const;
+
+    /// The same from owners looked up already: front[i] is that of the image's pixel i.
+    void points(std::span<const Owner> front, ImageBuffer& image) const;
+
+    /// From the pixel's owners in ascending order, each standing for itself.
+    void pixel(int x, int y, std::span<const OwnerWeight> owners, ImageBuffer& image) const;
+    void tile(const WeightTile& tile, ImageBuffer& image) const;
+
+    /// Pixels where a Cryptomatte layer had more ids than ranks.
+    std::uint64_t truncatedPixels() const { return truncated_; }
+
+  private:
+    bool wants(Aov aov) const { return wanted_.contains(aov); }
+    void point(int x, int y, Owner front, ImageBuffer& image) const;
+    double depthAt(Owner owner, glm::dvec2 p_px) const;
+    glm::dvec3 normalAt(Owner owner, glm::dvec2 p_px) const;
+
+    std::set<Aov> wanted_;
+    const Scene& scene_;
+    const Camera& camera_;
+    glm::dmat4 camera_from_world_;
+    glm::dvec2 offset_px_;
+    const ScreenScene& screen_;
+    const ScreenPieces& pieces_;
+    const Shading& shading_;
+    std::vector<CryptomatteLayer> layers_;
+    mutable std::atomic<std::uint64_t> truncated_{0};
+};
+
+}  // namespace edgewise
