@@ -57,6 +57,8 @@ VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLi
     VisibleMap map;
     {
         std::vector<SegmentPiece> pieces = concatenate(workers, &CellOutput::segments);
+        counts.pieces += pieces.size();
+        if (progress.cancelled()) throw Interrupted();
         tbb::parallel_sort(pieces.begin(), pieces.end(), pieceBefore);
         mergeSorted(scene, pieces, map);
     }

@@ -12,10 +12,11 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     MethodResult result;
     Stopwatch watch;
     ScreenPieces pieces;
-    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
     watch.book("project", result.stages);
     checkCancelled(in.progress);
+    in.progress.stage("visibility", 0);
     const PointSampler sampler(screen, in.film.crop, 1);
     const std::vector<Owner> owner = sampler.sample(in.film.crop);
     watch.book("visibility", result.stages);

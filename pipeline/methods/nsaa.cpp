@@ -45,11 +45,13 @@ class Nsaa {
   public:
     explicit Nsaa(const MethodInput& in)
         : in_(in),
-          screen_(project(in.scene, in.camera, in.film, pieces_)),
+          screen_(project(in.scene, in.camera, in.film, pieces_, in.progress)),
           shading_(in.scene, in.camera, in.film, screen_, pieces_),
           aov_(in.options.aovs, in.scene, in.camera, in.film, screen_, pieces_, shading_),
           dump_(in.options.dump_dir, in.film.crop) {
         watch_.book("project", result_.stages);
+        checkCancelled(in.progress);
+        in.progress.stage("plan", 0);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
         watch_.book("plan", result_.stages);
         dump_.screen(screen_);
@@ -60,14 +62,18 @@ class Nsaa {
         const PixelBox& crop = in_.film.crop;
         result_.image = ImageBuffer(crop);
         aov_.begin(result_.image);
-        const std::vector<PixelBox> bands = cutIntoBands(crop);
-        in_.progress.stage("weights", static_cast<std::size_t>(crop.height()));
-        for (const PixelBox& band : bands) renderBand(band);
+        Bands bands = cutIntoBands(crop);
+        std::size_t band_count = 0;
+        for (auto band = bands.next(); band; band = bands.next(), ++band_count) {
+            const std::uint64_t before = visibility_counts_.pieces;
+            renderBand(*band);
+            bands.made(visibility_counts_.pieces - before);
+        }
         aov_.samplePoints(in_.progress, result_.image);
         if (aov_.pointSamples()) watch_.book("aov", result_.stages);
         dump_.finish();
         result_.plan = plan_.entries;
-        fillCounts(bands.size());
+        fillCounts(band_count);
         return std::move(result_);
     }
 
@@ -102,19 +108,28 @@ class Nsaa {
         return shading_.closest(owner, sample_px).color;
     }
 
-    /// The buffers beside the image share what --memory leaves.
-    std::vector<PixelBox> cutIntoBands(const PixelBox& crop) {
+    /// What stays as long as the picture is made: the image, the scene on the screen, the plan's tables.
+    std::size_t residentBytes() const {
+        const auto bytes = [](const auto& items) { return items.size() * sizeof(items[0]); };
+        return result_.image.bytes() + bytes(screen_.triangles) + bytes(screen_.planes) +
+               bytes(pieces_.first) + bytes(pieces_.back_facing) + bytes(pieces_.plane_normal_eye) +
+               bytes(plan_.constant) + bytes(plan_.classes.representative);
+    }
+
+    /// The other buffers share what --memory leaves.
+    Bands cutIntoBands(const PixelBox& crop) {
+        checkCancelled(in_.progress);
+        in_.progress.stage("gather", 0);
         const CellGrid grid(windowOf(crop, offset(), reachOf(in_.filter)));
         requireLattice(grid, in_.options.memory_mib << 20);
         const IdLists lists = gather(screen_, grid);
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
-        const std::size_t image = result_.image.bytes();
-        if (image >= limit)
-            throw FailureError("--memory", fmt::format("the image alone needs {} MiB", image >> 20));
-        auto bands = bandsFor(crop, grid, lists, reachOf(in_.filter), offset(), limit - image);
+        if (residentBytes() >= limit)
+            throw FailureError("--memory", fmt::format("the image and the projected triangles alone need {} MiB",
+                                                       (residentBytes() >> 20) + 1));
         watch_.book("gather", result_.stages);
-        return bands;
+        return Bands(crop, grid, lists, reachOf(in_.filter), offset(), limit - residentBytes());
     }
 
     VisibleMap visibleMapOf(const PixelBox& box) {
@@ -137,12 +152,20 @@ class Nsaa {
         tbb::enumerable_thread_specific<TileWorker> workers([&] {
             return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         });
+        in_.progress.stage(nameOf(band), tiles.boxes.size());
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
             renderTile(map, tiles, t, workers.local());
+            in_.progress.advance(1);
         });
-        in_.progress.advance(static_cast<std::size_t>(band.height()));
         bookTiles(workers, watch_.lap());
+    }
+
+    /// Says how far the picture is where it is made in several bands.
+    std::string nameOf(const PixelBox& band) const {
+        const PixelBox& crop = in_.film.crop;
+        if (band.height() == crop.height()) return "weights";
+        return fmt::format("weights to row {} of {}", band.y1 - crop.y0, crop.height());
     }
 
     void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {

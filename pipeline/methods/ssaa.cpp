@@ -238,7 +238,7 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
     const int per_side = *spec.number;
     const SampleWeights weights(in.filter, per_side);
     ScreenPieces pieces;
-    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
     const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);
     const PixelFilter filter(in, shading, aov, weights, per_side);
