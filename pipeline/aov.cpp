@@ -62,7 +62,7 @@ void AovPass::begin(ImageBuffer& image) const {
     if (wants(Aov::kDepth)) channels.push_back({"Z"});
     if (wants(Aov::kNormal)) channels.insert(channels.end(), {{"N.X"}, {"N.Y"}, {"N.Z"}});
     if (wants(Aov::kIndex)) channels.push_back({"index", true});
-    if (wants(Aov::kOwners)) channels.push_back({"owners", true});
+    if (wants(Aov::kOwners)) channels.push_back({"owners"});
     for (const CryptomatteLayer& layer : layers_) layer.describe(image.aov);
     image.aov.words.assign(channels.size() * image.rgba.size(), 0);
 }
@@ -133,8 +133,8 @@ void AovPass::pixel(int x, int y, std::span<const OwnerWeight> owners, ImageBuff
     }
     truncated_ += !complete;
     if (wants(Aov::kOwners))
-        *--out = static_cast<std::uint32_t>(
-            std::ranges::count_if(owners, [](const OwnerWeight& entry) { return entry.weight != 0; }));
+        *--out = floatBits(static_cast<double>(
+            std::ranges::count_if(owners, [](const OwnerWeight& entry) { return entry.weight != 0; })));
 }
 
 void AovPass::tile(const WeightTile& tile, ImageBuffer& image) const {

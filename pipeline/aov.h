@@ -25,7 +25,7 @@ struct Progress;
 ///                                 nothing is
 ///     index        index          uint32, the triangle's index; 4294967295 where nothing is
 /// Integrated over the filter's support:
-///     owners       owners         uint32, owners with a weight other than 0, the background among them
+///     owners       owners         how many owners have a weight other than 0, the background among them
 ///     cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
 enum class Aov { kDepth, kNormal, kIndex, kOwners, kCryptomatte };
 

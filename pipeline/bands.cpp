@@ -56,8 +56,8 @@ std::size_t Bands::pairs(int y0, int y1) const {
 }
 
 double Bands::bytesOf(int y0, int y1, double pieces_per_pair) const {
-    const int rows = grid_.rowOf(y1 + y_offset_px_ + reach_px_) -
-                     grid_.rowOf(y0 + y_offset_px_ - reach_px_) + 1;
+    const int rows =
+        grid_.rowOf(y1 + y_offset_px_ + reach_px_) - grid_.rowOf(y0 + y_offset_px_ - reach_px_) + 1;
     return double(pairs(y0, y1)) * (pieces_per_pair * bytes_per_piece_ + sizeof(std::uint32_t)) +
            double(rows) * grid_.columns * kBytesPerCell;
 }

@@ -1,6 +1,7 @@
 // One sample at the pixel's centre: the front-most owner's colour there.
 #include <tbb/parallel_for.h>
 
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
@@ -42,6 +43,7 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
                      {"pieces", screen.triangles.size()},
                      {"samples", owner.size()},
                      {"exact_depths", sampler.exactDepths()}};
+    reportAovs(aov, result);
     return result;
 }
 

@@ -14,6 +14,7 @@
 #include "pipeline/blend.h"
 #include "pipeline/dump_stages.h"
 #include "pipeline/gather.h"
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/plan.h"
@@ -126,8 +127,9 @@ class Nsaa {
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
         if (residentBytes() >= limit)
-            throw FailureError("--memory", fmt::format("the image and the projected triangles alone need {} MiB",
-                                                       (residentBytes() >> 20) + 1));
+            throw FailureError("--memory",
+                               fmt::format("the image and the projected triangles alone need {} MiB",
+                                           (residentBytes() >> 20) + 1));
         watch_.book("gather", result_.stages);
         return Bands(crop, grid, lists, reachOf(in_.filter), offset(), limit - residentBytes());
     }
@@ -225,8 +227,8 @@ class Nsaa {
         counts_["depth_lines"] = visibility_counts_.depth_lines;
         counts_["exact_depths"] = visibility_counts_.exact_depth;
         counts_["hidden_pairs"] = visibility_counts_.hidden;
-        if (aov_.weighs()) counts_["cryptomatte_truncated_pixels"] = aov_.truncatedPixels();
         result_.counts = counts_;
+        reportAovs(aov_, result_);
     }
 
     const MethodInput& in_;

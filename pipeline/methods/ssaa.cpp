@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/sample_weights.h"
@@ -278,6 +279,7 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
                      {"samples", samples},
                      {"shaded", shaded},
                      {"exact_depths", sampler.exactDepths()}};
+    reportAovs(aov, result);
     return result;
 }
 
