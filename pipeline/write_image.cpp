@@ -127,7 +127,20 @@ class Encoder {
         }
     }
 
-    void finish() { require(output_->close()); }
+    void finish() {
+        require(output_->close());
+        output_.reset();
+    }
+
+    /// libpng complains on standard error about a picture that is given up: black rows keep it quiet.
+    ~Encoder() {
+        if (!output_ || format_ != ImageFormat::kPng) return;
+        const std::vector<unsigned char> row(output_->spec().scanline_bytes(), 0);
+        for (; next_row_ < output_->spec().height; ++next_row_)
+            output_->write_scanline(next_row_, 0, type_, row.data());
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
 
   private:
     const char* name() const { return format_ == ImageFormat::kExr ? "exr" : "png"; }
@@ -142,12 +155,14 @@ class Encoder {
             format_ == ImageFormat::kExr ? exrRow(image, y, words_) : pngRow(image, y, gain_, bytes_);
         const void* rows = format_ == ImageFormat::kExr ? static_cast<const void*>(words_.data())
                                                         : static_cast<const void*>(bytes_.data());
-        require(output_->write_scanlines(begin - first_row_, end - first_row_, 0, type_, rows));
+        next_row_ = end - first_row_;
+        require(output_->write_scanlines(begin - first_row_, next_row_, 0, type_, rows));
     }
 
     ImageFormat format_;
     double gain_;
-    int first_row_;  ///< of the film, where the file counts from 0
+    int first_row_;     ///< of the film, where the file counts from 0
+    int next_row_ = 0;  ///< of the file
     OIIO::TypeDesc type_;
     std::unique_ptr<OIIO::ImageOutput> output_;
     std::vector<std::uint32_t> words_;
