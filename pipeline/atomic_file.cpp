@@ -56,8 +56,9 @@ void writeToDevice(const std::filesystem::path& path, std::span<const unsigned c
 
 PendingFile::PendingFile(const std::filesystem::path& target)
     : target_(target),
-      name_(target.parent_path() / fmt::format(".{}.{}.tmp", target.filename().string(), getpid())),
-      slot_(freeSlot(target)) {
+      slot_(freeSlot(target)),
+      name_(target.parent_path() /
+            fmt::format(".{}.{}.{}.tmp", target.filename().string(), getpid(), slot_)) {
     checkOutputPath(target);
     pending_names[slot_] = name_.c_str();
     stream_ = std::fopen(name_.c_str(), "w+be");

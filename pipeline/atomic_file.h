@@ -33,8 +33,9 @@ class PendingFile {
     void keep();
 
   private:
-    std::filesystem::path target_, name_;
+    std::filesystem::path target_;
     std::size_t slot_;
+    std::filesystem::path name_;
     std::FILE* stream_ = nullptr;
     bool kept_ = false;
 };

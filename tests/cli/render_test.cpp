@@ -99,6 +99,13 @@ TEST(Render, SeveralOutputsAreOneImage) {
     EXPECT_EQ(png.spec.height, exr.spec.height);
 }
 
+TEST(Render, AnOutputNamedTwiceIsWritten) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"-o", "./a.exr"});
+    EXPECT_EQ(readPicture(folder / "a.exr").spec.width, 60);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.exr"});
+}
+
 TEST(Render, BackgroundFillsWhatNothingCovers) {
     const TemporaryFolder folder;
     render(folder, "a.exr", {"--background", "0.25,0.5,2"});
