@@ -59,6 +59,7 @@ struct VisibilityOptions {
 struct CellOutput {
     std::vector<SegmentPiece> segments;
     std::vector<RowPiece> rows;
+    LayerStacks stacks;  ///< what owners of this output's pieces are stacks
     VisibilityCounts counts;
 };
 

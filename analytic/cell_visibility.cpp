@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analytic/local_plane.h"
 
@@ -60,41 +61,59 @@ void CellVisibility::run(const ScreenScene& scene, const Cell& cell,
     visit(scene, cell, cell.min, 0, stack_.size(), options, out);
 }
 
-void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
-                           std::size_t end, const VisibilityOptions& options, CellOutput& out) {
+/// Keeps on the stack's top, of [begin, end), what meets the cell and no opaque triangle hides there. Returns
+/// how many of these cover it and are seen through.
+std::size_t CellVisibility::collect(const ScreenScene& scene, const Cell& cell, std::size_t begin,
+                                    std::size_t end, const VisibilityOptions& options, CellOutput& out) {
     const std::size_t own = stack_.size();
-    std::uint32_t occluder = 0;
-    bool has_occluder = false;
     const glm::dvec2 center = 0.5 * (cell.min + cell.max);
+    std::optional<std::uint32_t> occluder;
     double nearest = 0.0;
+    std::size_t panes = 0;
     for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t index = stack_[i];
         const ScreenTriangle& t = scene.triangles[index];
         const Overlap o = overlap(t, cell);
         if (!o.meets) continue;
         stack_.push_back(index);
-        if (!o.covers || !options.occlusion) continue;
+        if (!o.covers) continue;
+        if (scene.seesThrough(t.owner)) {
+            ++panes;
+            continue;
+        }
         const double z = localPlane(scene, t, center, 0.0).c;
-        if (!has_occluder || z > nearest) has_occluder = true, nearest = z, occluder = index;
+        if (!occluder || z > nearest) nearest = z, occluder = index;
     }
-    if (has_occluder) {
-        const ScreenTriangle& front = scene.triangles[occluder];
-        const auto hidden = [&](std::uint32_t index) {
-            return index != occluder && hides(scene, front, scene.triangles[index], cell);
-        };
-        const auto first = stack_.begin() + static_cast<std::ptrdiff_t>(own);
-        const auto kept = std::remove_if(first, stack_.end(), hidden);
-        out.counts.hidden += static_cast<std::uint64_t>(stack_.end() - kept);
-        stack_.erase(kept, stack_.end());
-    }
+    if (occluder && options.occlusion) out.counts.hidden += dropHidden(scene, cell, own, *occluder);
+    return std::min(panes, stack_.size() - own);
+}
+
+std::size_t CellVisibility::dropHidden(const ScreenScene& scene, const Cell& cell, std::size_t from,
+                                       std::uint32_t occluder) {
+    const ScreenTriangle& front = scene.triangles[occluder];
+    const auto hidden = [&](std::uint32_t index) {
+        return index != occluder && hides(scene, front, scene.triangles[index], cell);
+    };
+    const auto kept =
+        std::remove_if(stack_.begin() + static_cast<std::ptrdiff_t>(from), stack_.end(), hidden);
+    const auto dropped = static_cast<std::size_t>(stack_.end() - kept);
+    stack_.erase(kept, stack_.end());
+    return dropped;
+}
+
+void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
+                           std::size_t end, const VisibilityOptions& options, CellOutput& out) {
+    const std::size_t own = stack_.size();
+    const std::size_t panes = collect(scene, cell, begin, end, options, out);
     const std::size_t count = stack_.size() - own;
     const auto list = [&] { return std::span<const std::uint32_t>(stack_).subspan(own, count); };
     if (options.certify && certificate_.run(scene, cell, origin, list(), out)) {
         stack_.resize(own);
         return;
     }
-    const glm::dvec2 size = cell.max - cell.min;
-    const bool crowded = count > static_cast<std::size_t>(options.max_triangles);
+    const glm::dvec2 size = cell.max - cell.min, center = 0.5 * (cell.min + cell.max);
+    // Panes bring no edges into the cell, and a smaller one would hold them all the same.
+    const bool crowded = count - panes > static_cast<std::size_t>(options.max_triangles);
     if (crowded && size.x > options.min_cell_px) {
         const double xs[3] = {cell.min.x, center.x, cell.max.x}, ys[3] = {cell.min.y, center.y, cell.max.y};
         for (std::size_t quarter = 0; quarter < 4; ++quarter) {

@@ -21,6 +21,11 @@ class CellVisibility {
     void visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
                std::size_t end, const VisibilityOptions& options, CellOutput& out);
 
+    std::size_t collect(const ScreenScene& scene, const Cell& cell, std::size_t begin, std::size_t end,
+                        const VisibilityOptions& options, CellOutput& out);
+    std::size_t dropHidden(const ScreenScene& scene, const Cell& cell, std::size_t from,
+                           std::uint32_t occluder);
+
     std::vector<std::uint32_t> stack_;  ///< candidate lists of the open cells, one behind the other
     SheetCertificate certificate_;
     SlabSweep sweep_;

@@ -96,9 +96,12 @@ void LeafLines::collect(const ScreenScene& scene, const Cell& cell, glm::dvec2 o
     frame = CellFrame(cell, origin);
     planes.clear(), lines.clear(), horizontals.clear(), events.clear(), masks.clear(), key_scratch_.clear();
     words = std::max<std::size_t>(1, (triangles.size() + 63) / 64);
+    see_through.assign(words, 0), any_see_through = false;
     const double reach = std::max(cell.max.x - origin.x, cell.max.y - origin.y) + 1.0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         planes.push_back(localPlane(scene, scene.triangles[triangles[i]], origin, reach));
+        if (scene.seesThrough(planes.back().owner))
+            see_through[i / 64] |= std::uint64_t{1} << (i % 64), any_see_through = true;
         for (std::uint32_t k = 0; k < 3; ++k) addEdge(scene, triangles[i], k, i);
     }
     addDepthLines(scene, triangles, options.every_depth_line, counts);

@@ -31,6 +31,8 @@ class LeafLines {
     std::vector<OrderKey> keys;               ///< of all events, ends and borders, ascending, distinct
     std::vector<FineCoordinate> ordinates;    ///< one a key
     std::vector<std::uint64_t> masks;
+    std::vector<std::uint64_t> see_through;  ///< one row: the triangles that are
+    bool any_see_through = false;
     std::size_t words = 1;
     CellFrame frame;
 

@@ -38,6 +38,22 @@ bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q) {
     return std::tie(p.left, p.right) < std::tie(q.left, q.right);
 }
 
+LayerStacks joinStacks(std::span<CellOutput* const> outputs) {
+    std::vector<const LayerStacks*> parts;
+    for (const CellOutput* out : outputs) parts.push_back(&out->stacks);
+    std::vector<std::vector<Owner>> names;
+    LayerStacks table = LayerStacks::joined(parts, names);
+    for (std::size_t p = 0; p < outputs.size(); ++p) {
+        if (names[p].empty()) continue;
+        const auto rename = [&](Owner& owner) {
+            if (isStack(owner)) owner = names[p][owner - kFirstStack];
+        };
+        for (SegmentPiece& piece : outputs[p]->segments) rename(piece.left), rename(piece.right);
+        for (RowPiece& piece : outputs[p]->rows) rename(piece.owner);
+    }
+    return table;
+}
+
 void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map) {
     map.lines.clear(), map.segments.clear();
     map.lines.reserve(pieces.size()), map.segments.reserve(pieces.size());  // never held twice while growing

@@ -11,6 +11,9 @@ namespace edgewise {
 /// By line, then along it: an order that does not depend on how the pieces came.
 bool pieceBefore(const SegmentPiece& p, const SegmentPiece& q);
 
+/// One table of the stacks of several outputs, by whose names their pieces then go.
+LayerStacks joinStacks(std::span<CellOutput* const> outputs);
+
 /// Joins pieces of the same line and owners that share an end; `pieces` sorted by pieceBefore.
 void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map);
 

@@ -39,7 +39,10 @@ struct ScreenTriangle {
 struct ScreenScene {
     std::vector<ScreenTriangle> triangles;
     std::vector<DepthPlane> planes;
-    glm::dvec2 anchor_px{0.0};  ///< on the grid; moves with the triangles
+    std::vector<std::uint8_t> see_through;  ///< by owner: what lies behind it shows; empty: all are opaque
+    glm::dvec2 anchor_px{0.0};              ///< on the grid; moves with the triangles
+
+    bool seesThrough(Owner owner) const { return !see_through.empty() && see_through[owner] != 0; }
 };
 
 }  // namespace edgewise

@@ -149,7 +149,9 @@ void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame
 
 bool SheetCertificate::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
                            std::span<const std::uint32_t> triangles, CellOutput& out) {
-    if (triangles.empty() || !pairEdges(scene, cell, triangles)) return false;
+    const auto see_through = [&](std::uint32_t i) { return scene.seesThrough(scene.triangles[i].owner); };
+    if (triangles.empty() || std::ranges::any_of(triangles, see_through)) return false;
+    if (!pairEdges(scene, cell, triangles)) return false;
     const glm::dvec2 size = cell.max - cell.min;
     // Two generic points: a vertex or an edge may lie on one of them.
     if (!coveredOnce(scene, triangles, cell.min + size * glm::dvec2(0.5078125, 0.4765625)) &&

@@ -93,6 +93,8 @@ struct SlabSweep::State {
     std::vector<Break> breaks;
     OwnerBalance balance;
     std::vector<std::pair<Owner, Owner>> over_under;
+    std::vector<const LocalPlane*> panes;
+    std::vector<Owner> layers;
     double y_mid = 0.0;  ///< of the slab, from the origin
     std::size_t next_entry, next_event, next_horizontal;
 
@@ -106,9 +108,12 @@ struct SlabSweep::State {
     void emitHorizontals(std::size_t slab);
     void closePiece(std::uint32_t line, const FinePoint& end);
     void toggle(std::uint32_t line);
-    /// The front-most of `mask` in the middle of the slab between lines `left` and `right`, or the cell's
+    /// What is seen of `mask` in the middle of the slab between lines `left` and `right`, or the cell's
     /// borders.
-    Owner nearest(std::uint32_t left, std::uint32_t right, std::size_t slab);
+    Owner seen(std::uint32_t left, std::uint32_t right, std::size_t slab);
+    template <class Before>
+    Owner seenThrough(const LocalPlane* opaque, double x, const Before& before);
+    double middle(std::uint32_t left, std::uint32_t right) const;
     bool exactlyInFront(const LocalPlane& p, const LocalPlane& q, std::uint32_t left, std::uint32_t right,
                         std::size_t slab);
     f64::dd exactMiddle(std::uint32_t line, double border_grid, std::size_t slab) const;
@@ -232,19 +237,48 @@ bool SlabSweep::State::exactlyInFront(const LocalPlane& p, const LocalPlane& q, 
     return sign != 0 ? sign > 0 : p.owner < q.owner;
 }
 
-Owner SlabSweep::State::nearest(std::uint32_t left, std::uint32_t right, std::size_t slab) {
+double SlabSweep::State::middle(std::uint32_t left, std::uint32_t right) const {
     const double x0 = left == kBorder ? leftBorder() : tracks[left].x_mid;
     const double x1 = right == kBorder ? rightBorder() : tracks[right].x_mid;
-    const double x = 0.5 * (x0 + x1);
+    return 0.5 * (x0 + x1);
+}
+
+Owner SlabSweep::State::seen(std::uint32_t left, std::uint32_t right, std::size_t slab) {
+    const double x = middle(left, right);
+    const auto before = [&](const LocalPlane& p, const LocalPlane& q) {
+        const int order_now = filteredOrder(p, q, x, y_mid);
+        return order_now > 0 || (order_now == 0 && exactlyInFront(p, q, left, right, slab));
+    };
     const LocalPlane* best = nullptr;
     for (std::size_t w = 0; w < leaf.words; ++w) {
-        for (std::uint64_t bits = mask[w]; bits != 0; bits &= bits - 1) {
+        for (std::uint64_t bits = mask[w] & ~leaf.see_through[w]; bits != 0; bits &= bits - 1) {
             const LocalPlane& p = leaf.planes[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
-            const int order_now = best ? filteredOrder(p, *best, x, y_mid) : 1;
-            if (order_now > 0 || (order_now == 0 && exactlyInFront(p, *best, left, right, slab))) best = &p;
+            if (!best || before(p, *best)) best = &p;
         }
     }
+    if (leaf.any_see_through) return seenThrough(best, x, before);
     return best ? best->owner : kBackground;
+}
+
+/// The stack of the see-through triangles of `mask` in front of the opaque one, or of the background.
+template <class Before>
+Owner SlabSweep::State::seenThrough(const LocalPlane* opaque, double x, const Before& before) {
+    panes.clear();
+    for (std::size_t w = 0; w < leaf.words; ++w) {
+        for (std::uint64_t bits = mask[w] & leaf.see_through[w]; bits != 0; bits &= bits - 1) {
+            const LocalPlane& p = leaf.planes[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
+            if (opaque && !before(p, *opaque)) continue;
+            const auto behind =
+                std::ranges::find_if(panes, [&](const LocalPlane* q) { return before(p, *q); });
+            panes.insert(behind, &p);
+        }
+    }
+    layers.clear();
+    for (const LocalPlane* p : panes)  // pieces of one triangle are one layer
+        if (layers.empty() || layers.back() != p->owner) layers.push_back(p->owner);
+    if (layers.size() > kMaxLayers) throw LayerLimit{origin + glm::dvec2(x, y_mid)};
+    layers.push_back(opaque ? opaque->owner : kBackground);
+    return out->stacks.owner(layers);
 }
 
 /// Walks the slab's middle from left to right; labels the lines where the owner changes.
@@ -259,7 +293,7 @@ void SlabSweep::State::sweep(std::size_t slab) {
     }
     y_mid = 0.5 * (leaf.frame.localY(leaf.ordinates[slab]) + leaf.frame.localY(leaf.ordinates[slab + 1]));
     const auto next = [&](std::size_t i) { return i < order.size() ? order[i] : kBorder; };
-    Owner owner = below.first = nearest(kBorder, next(0), slab);
+    Owner owner = below.first = seen(kBorder, next(0), slab);
     below.bounds.clear();
     for (std::size_t i = 0; i < order.size();) {
         const std::uint32_t first = order[i];
@@ -269,7 +303,7 @@ void SlabSweep::State::sweep(std::size_t slab) {
             const Carrier &c = leaf.lines[order[i]].carrier, &best = leaf.lines[chosen].carrier;
             if (c.isEdge() != best.isEdge() ? c.isEdge() : c.ref < best.ref) chosen = order[i];
         }
-        const Owner after = nearest(first, next(i), slab);
+        const Owner after = seen(first, next(i), slab);
         if (after == owner) continue;
         Track& t = tracks[chosen];
         t.labelled_in = slab, t.new_left = owner, t.new_right = after;

@@ -16,7 +16,7 @@ class SlabSweep {
     ~SlabSweep();
 
     /// The owners of `cell` among `triangles` (indices into scene.triangles), appended to `out`.
-    /// `origin`: a grid point near the cell, the frame of its arithmetic.
+    /// `origin`: a grid point near the cell, the frame of its arithmetic. Throws LayerLimit.
     void run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
              std::span<const std::uint32_t> triangles, const VisibilityOptions& options, CellOutput& out);
 

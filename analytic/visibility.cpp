@@ -39,6 +39,8 @@ VisibleMap visibleMap(const ScreenScene& scene, const Window& window, const Visi
         for (int x = cells.x0; x < cells.x1; x += kCellPx)
             visibility.run(scene, {{x, y}, {x + kCellPx, y + kCellPx}}, all, options, out);
     VisibleMap map;
+    CellOutput* const outputs[] = {&out};
+    map.stacks = joinStacks(outputs);
     std::sort(out.segments.begin(), out.segments.end(), pieceBefore);
     mergeSorted(scene, out.segments, map);
     mergeRows(out.rows, cells.y0, cells.y1, map);

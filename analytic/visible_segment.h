@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "analytic/screen_triangle.h"
+#include "analytic/layer_stacks.h"
 
 namespace edgewise {
 
@@ -46,7 +46,7 @@ struct RowOwner {
     Owner owner;
 };
 
-/// The front-most owners of a window of the screen.
+/// The front-most owners of a window of the screen: triangles, or stacks of see-through layers.
 struct VisibleMap {
     std::vector<CarrierLine> lines;
     std::vector<VisibleSegment> segments;  ///< sorted by (line, position): independent of threads and tiles
@@ -55,6 +55,7 @@ struct VisibleMap {
     int row_begin = 0;
     std::vector<std::size_t> row_offset;
     std::vector<RowOwner> rows;
+    LayerStacks stacks;  ///< the owners that are several layers; sorted, whatever the threads and tiles
 };
 
 }  // namespace edgewise

@@ -3,8 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "pipeline/composite.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/progress.h"
@@ -75,25 +77,34 @@ void AovPass::samplePoints(Progress& progress, ImageBuffer& image) const {
     for (int y = box.y0; y < box.y1; y += kRowsAtOnce) {
         if (progress.cancelled()) throw Interrupted();
         const PixelBox rows{box.x0, y, box.x1, std::min(y + kRowsAtOnce, box.y1)};
-        const std::vector<Owner> front = sampler.sample(moved(rows, offset_px_));
+        const SampledOwners sampled = sampler.sample(moved(rows, offset_px_));
         tbb::parallel_for(rows.y0, rows.y1, [&](int row) {
+            const Owner* owner = sampled.owner.data() + static_cast<std::size_t>(row - y) * rows.width();
             for (int x = rows.x0; x < rows.x1; ++x)
-                point(x, row, front[static_cast<std::size_t>(row - y) * rows.width() + (x - rows.x0)], image);
+                point(x, row, sampled.stacks.layersOf(owner[x - rows.x0]), image);
         });
         progress.advance(static_cast<std::size_t>(rows.height()));
     }
 }
 
-void AovPass::points(std::span<const Owner> front, ImageBuffer& image) const {
+void AovPass::points(const SampledOwners& sampled, ImageBuffer& image) const {
     if (!pointSamples()) return;
     tbb::parallel_for(image.box.y0, image.box.y1, [&](int y) {
-        for (int x = image.box.x0; x < image.box.x1; ++x) point(x, y, front[image.index(x, y)], image);
+        for (int x = image.box.x0; x < image.box.x1; ++x)
+            point(x, y, sampled.stacks.layersOf(sampled.owner[image.index(x, y)]), image);
     });
 }
 
-void AovPass::point(int x, int y, Owner front, ImageBuffer& image) const {
+Owner AovPass::frontLayer(std::span<const Owner> layers, glm::dvec2 p_px) const {
+    for (const Owner layer : layers.first(layers.size() - 1))
+        if (shading_.atPoint(layer, p_px).alpha > 0.0) return layer;
+    return layers.back();
+}
+
+void AovPass::point(int x, int y, std::span<const Owner> layers, ImageBuffer& image) const {
     std::uint32_t* out = image.aov.pixel(image.index(x, y));
     const glm::dvec2 p_px = glm::dvec2(x + 0.5, y + 0.5) + offset_px_;
+    const Owner front = frontLayer(layers, p_px);
     const bool seen = front != kBackground;
     if (wants(Aov::kDepth)) *out++ = floatBits(seen ? depthAt(front, p_px) : kBackgroundDepth);
     if (wants(Aov::kNormal)) {
@@ -124,12 +135,30 @@ glm::dvec3 AovPass::normalAt(Owner owner, glm::dvec2 p_px) const {
     return glm::transpose(glm::dmat3(camera_from_world_)) * shading_.normal(owner, p_px);
 }
 
-void AovPass::pixel(int x, int y, std::span<const OwnerWeight> owners, ImageBuffer& image) const {
+void AovPass::addLayers(std::span<const Owner> layers, FixedWeight weight, glm::dvec2 p_px,
+                        std::vector<OwnerWeight>& out) const {
+    if (layers.size() == 1) return out.push_back({layers[0], weight});
+    throughLayers(
+        layers, [&](Owner layer) { return shading_.closest(layer, p_px); },
+        [&](std::size_t k, double share, const glm::dvec3&) {
+            out.push_back(
+                {layers[k], static_cast<FixedWeight>(std::llround(static_cast<double>(weight) * share))});
+        });
+}
+
+void AovPass::pixel(int x, int y, std::span<const OwnerWeight> owners, const LayerStacks& stacks,
+                    ImageBuffer& image) const {
     std::uint32_t* out = image.aov.pixel(image.index(x, y)) + image.aov.channels.size();
+    const glm::dvec2 p_px = glm::dvec2(x + 0.5, y + 0.5) + offset_px_;
+    thread_local std::vector<OwnerWeight> layers;
+    layers.clear();
+    if (!layers_.empty())
+        for (const OwnerWeight& entry : owners)
+            addLayers(stacks.layersOf(entry.owner), entry.weight, p_px, layers);
     bool complete = true;
     for (auto layer = layers_.rbegin(); layer != layers_.rend(); ++layer) {
         out -= 2 * kCryptomatteRanks;
-        complete &= layer->rank(scene_, owners, out);
+        complete &= layer->rank(scene_, layers, out);
     }
     truncated_ += !complete;
     if (wants(Aov::kOwners))
@@ -137,12 +166,13 @@ void AovPass::pixel(int x, int y, std::span<const OwnerWeight> owners, ImageBuff
             std::ranges::count_if(owners, [](const OwnerWeight& entry) { return entry.weight != 0; })));
 }
 
-void AovPass::tile(const WeightTile& tile, ImageBuffer& image) const {
+void AovPass::tile(const WeightTile& tile, const LayerStacks& stacks, ImageBuffer& image) const {
     std::size_t p = 0;
     for (int y = tile.box.y0; y < tile.box.y1; ++y)
         for (int x = tile.box.x0; x < tile.box.x1; ++x, ++p)
-            pixel(x, y, std::span(tile.entries).subspan(tile.offset[p], tile.offset[p + 1] - tile.offset[p]),
-                  image);
+            pixel(x, y,
+                  std::span(tile.entries).subspan(tile.offset[p], tile.offset[p + 1] - tile.offset[p]),
+                  stacks, image);
 }
 
 }  // namespace edgewise

@@ -17,6 +17,7 @@
 namespace edgewise {
 
 struct Progress;
+struct SampledOwners;
 
 /// Point-sampled, of the nearest surface at the pixel's sample and unfiltered:
 ///     depth        Z              distance along the view axis, world units; kBackgroundDepth where nothing
@@ -24,8 +25,9 @@ struct Progress;
 ///     normal       N.X N.Y N.Z    what is shaded with: unit, world space, towards the viewer; 0 where
 ///                                 nothing is
 ///     index        index          uint32, the triangle's index; 4294967295 where nothing is
+/// See-through layers count as surfaces where they are there at all: the nearest whose alpha is not 0.
 /// Integrated over the filter's support:
-///     owners       owners         how many owners have a weight other than 0, the background among them
+///     owners       owners         how many owners have a weight other than 0, the background among them; a stack of layers is one
 ///     cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
 enum class Aov { kDepth, kNormal, kIndex, kOwners, kCryptomatte };
 
@@ -54,19 +56,24 @@ class AovPass {
     /// Looks up the owner at each pixel's sample and fills the point-sampled channels. Throws Interrupted.
     void samplePoints(Progress& progress, ImageBuffer& image) const;
 
-    /// The same from owners looked up already: front[i] is that of the image's pixel i.
-    void points(std::span<const Owner> front, ImageBuffer& image) const;
+    /// The same from owners looked up already, one a pixel of the image.
+    void points(const SampledOwners& sampled, ImageBuffer& image) const;
 
-    /// From the pixel's owners in ascending order, each standing for itself.
-    void pixel(int x, int y, std::span<const OwnerWeight> owners, ImageBuffer& image) const;
-    void tile(const WeightTile& tile, ImageBuffer& image) const;
+    /// From the pixel's owners, each standing for itself. A layer of a stack covers its share of it: its
+    /// alpha times what the layers before it let through.
+    void pixel(int x, int y, std::span<const OwnerWeight> owners, const LayerStacks& stacks,
+               ImageBuffer& image) const;
+    void tile(const WeightTile& tile, const LayerStacks& stacks, ImageBuffer& image) const;
 
     /// Pixels where a Cryptomatte layer had more ids than ranks.
     std::uint64_t truncatedPixels() const { return truncated_; }
 
   private:
     bool wants(Aov aov) const { return wanted_.contains(aov); }
-    void point(int x, int y, Owner front, ImageBuffer& image) const;
+    Owner frontLayer(std::span<const Owner> layers, glm::dvec2 p_px) const;
+    void addLayers(std::span<const Owner> layers, FixedWeight weight, glm::dvec2 p_px,
+                   std::vector<OwnerWeight>& out) const;
+    void point(int x, int y, std::span<const Owner> layers, ImageBuffer& image) const;
     double depthAt(Owner owner, glm::dvec2 p_px) const;
     glm::dvec3 normalAt(Owner owner, glm::dvec2 p_px) const;
 

@@ -22,25 +22,27 @@ struct ContrastRange {
 
 }  // namespace
 
-void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade,
-           const glm::dvec3& background, ImageBuffer& image) {
+void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade, ImageBuffer& image) {
     std::size_t pixel = 0;
     for (int y = tile.box.y0; y < tile.box.y1; ++y) {
         for (int x = tile.box.x0; x < tile.box.x1; ++x, ++pixel) {
             const glm::dvec2 sample = glm::dvec2(x + 0.5, y + 0.5) + offset_px;
             glm::dvec3 color(0.0);
             FixedWeight covered = 0;
+            double half_covered = 0.0;
             ContrastRange range;
             for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e) {
                 const OwnerWeight& entry = tile.entries[e];
-                const bool behind = entry.owner == kBackground;
-                const glm::dvec3 c = behind ? background : shade(entry.owner, sample);
-                color += toReal(entry.weight) * c;
-                if (!behind) covered += entry.weight;
-                range.add(c);
+                const Shade seen = shade(entry.owner, sample);
+                color += toReal(entry.weight) * seen.color;
+                if (seen.alpha == 1.0)
+                    covered += entry.weight;
+                else
+                    half_covered += toReal(entry.weight) * seen.alpha;
+                range.add(seen.color);
             }
             const std::size_t i = image.index(x, y);
-            image.rgba[i] = glm::dvec4(color, toReal(covered));
+            image.rgba[i] = glm::dvec4(color, toReal(covered) + half_covered);
             image.edge[i] = range.edge() ? 1.0f : 0.0f;
         }
     }

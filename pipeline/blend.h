@@ -4,16 +4,17 @@
 #include <functional>
 
 #include "pipeline/image_buffer.h"
+#include "pipeline/shade.h"
 #include "pipeline/weights.h"
 
 namespace edgewise {
 
-/// The colour of an owner (never the background) for a sample.
-using ShadeOwner = std::function<glm::dvec3(Owner, glm::dvec2 sample_px)>;
+/// The colour of an owner for a sample, over the background where that shows through, and how much of it is
+/// not the background's.
+using ShadeOwner = std::function<Shade(Owner, glm::dvec2 sample_px)>;
 
-/// Writes the tile's pixels: colour = sum of w c over owners, the background among them; alpha = the other
-/// weights' sum. Weights are never clamped.
-void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade,
-           const glm::dvec3& background, ImageBuffer& image);
+/// Writes the tile's pixels: colour = sum of w c over owners, the background among them; alpha = the sum of w
+/// alpha, exact but for one rounding where all alphas are 0 or 1. Weights are never clamped.
+void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade, ImageBuffer& image);
 
 }  // namespace edgewise

@@ -48,8 +48,14 @@ std::string pointText(const FinePoint& p, glm::dvec2 offset) {
     return fmt::format("{},{},{},{}", p.grid.x - offset.x, p.rest.x, p.grid.y - offset.y, p.rest.y);
 }
 
-std::string ownerText(Owner owner) {
-    return owner == kBackground ? "background" : fmt::format("{}", owner);
+/// The layers of a stack front to back, joined by slashes.
+std::string ownerText(const Owner& owner, const LayerStacks& stacks) {
+    std::string text;
+    for (const Owner layer : stacks.layersOf(owner)) {
+        if (!text.empty()) text += '/';
+        text += layer == kBackground ? "background" : fmt::format("{}", layer);
+    }
+    return text;
 }
 
 }  // namespace
@@ -124,12 +130,13 @@ void StageDump::segments(const VisibleMap& map, const PixelBox& band, glm::dvec2
     }
     for (const VisibleSegment& s : map.segments) {
         fmt::format_to(std::back_inserter(segments_csv_), "{},{},{},{}\n", pointText(s.a, offset_px),
-                       pointText(s.b, offset_px), ownerText(s.left), ownerText(s.right));
+                       pointText(s.b, offset_px), ownerText(s.left, map.stacks),
+                       ownerText(s.right, map.stacks));
         drawSegment(s.a.grid - offset_px, s.b.grid - offset_px, band, owners_);
     }
 }
 
-void StageDump::weights(const WeightTile& tile) {
+void StageDump::weights(const WeightTile& tile, const LayerStacks& stacks) {
     if (!active()) return;
     const std::lock_guard lock(mutex_);
     std::size_t pixel = 0;
@@ -139,7 +146,7 @@ void StageDump::weights(const WeightTile& tile) {
             counts_.rgba[i].x = static_cast<double>(tile.offset[pixel + 1] - tile.offset[pixel]);
             for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e)
                 fmt::format_to(std::back_inserter(weight_rows_[i]), "{},{},{},{}\n", x, y,
-                               ownerText(tile.entries[e].owner),
+                               ownerText(tile.entries[e].owner, stacks),
                                std::ldexp(static_cast<double>(tile.entries[e].weight), -kWeightBits));
         }
     }

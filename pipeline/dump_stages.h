@@ -30,7 +30,8 @@ class StageDump {
     void screen(const ScreenScene& scene);
     void gather(const CellGrid& grid, const IdLists& lists);
     void segments(const VisibleMap& map, const PixelBox& band, glm::dvec2 offset_px);
-    void weights(const WeightTile& tile);  ///< from any thread
+    /// From any thread; `stacks` names the tile's owners of several layers.
+    void weights(const WeightTile& tile, const LayerStacks& stacks);
     /// Writes all files.
     void finish();
 

@@ -69,6 +69,10 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
         plan.entries.push_back({stage, runs, std::move(why)});
         return !runs;
     };
+    const auto panes = static_cast<std::size_t>(std::ranges::count(screen.see_through, 1));
+    plan.entries.push_back({"layers", panes > 0,
+                            panes > 0 ? fmt::format("{} triangles are seen through: owners are stacks", panes)
+                                      : "every triangle that is there is opaque"});
     const bool one_plane = screen.planes.size() < 2;
     plan.visibility.cell.certify =
         add("visibility", false,

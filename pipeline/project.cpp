@@ -7,6 +7,7 @@
 #include "pipeline/error.h"
 #include "pipeline/eye_plane.h"
 #include "pipeline/grid_orientation.h"
+#include "pipeline/opacity.h"
 #include "pipeline/weld.h"
 
 namespace edgewise {
@@ -74,7 +75,8 @@ class Projector {
           volume_(camera.camera, map_),
           groups_(passed(findCoplanar(scene))),
           planes_(passed(makeEyePlanes(scene, groups_, camera.camera_from_world))),
-          vertices_(passed(weldVertices(scene, camera.camera_from_world))) {
+          vertices_(passed(weldVertices(scene, camera.camera_from_world))),
+          opacity_(opacityOf(scene)) {
         placeVertices(volume_, map_, vertices_);
     }
 
@@ -88,6 +90,7 @@ class Projector {
             advance(1);
         });
         join(runs, screen, pieces);
+        markSeeThrough(screen);
         return screen;
     }
 
@@ -128,6 +131,13 @@ class Projector {
         });
     }
 
+    void markSeeThrough(ScreenScene& screen) const {
+        const auto through = [](Opacity o) { return o == Opacity::kSeeThrough; };
+        if (std::ranges::none_of(opacity_, through)) return;
+        screen.see_through.resize(opacity_.size());
+        std::ranges::transform(opacity_, screen.see_through.begin(), through);
+    }
+
     void projectRun(std::size_t number, Run& run, ScreenPieces& pieces) const {
         const std::size_t end = std::min((number + 1) * kRunLength, scene_.triangle_count);
         TriangleRef at = findTriangle(scene_, static_cast<std::uint32_t>(number * kRunLength));
@@ -141,6 +151,7 @@ class Projector {
         const Geometry& geometry = scene_.geometry[at.geometry];
         const std::uint32_t plane = groups_.plane_of[owner];
         ++run.counts.triangles;
+        if (!opacity_.empty() && opacity_[owner] == Opacity::kInvisible) return void(++run.counts.invisible);
         if (plane == kNone || edge_on_[plane]) return void(++run.counts.no_area);
         back_facing = (planes_[plane].facing(map_.perspective) < 0.0) != (groups_.reversed[owner] != 0);
         if (back_facing && !scene_.materials[geometry.material].double_sided)
@@ -229,6 +240,7 @@ class Projector {
         all.triangles += run.triangles;
         all.no_area += run.no_area;
         all.culled += run.culled;
+        all.invisible += run.invisible;
         all.outside += run.outside;
         all.vanished += run.vanished;
         all.visible += run.visible;
@@ -243,6 +255,7 @@ class Projector {
     std::vector<EyePlane> planes_;
     EyeVertices vertices_;
     std::vector<std::uint8_t> edge_on_;
+    std::vector<Opacity> opacity_;
 };
 
 }  // namespace

@@ -18,12 +18,13 @@ namespace edgewise {
 /// Where the scene's triangles went; every triangle is counted once.
 struct ProjectionCounts {
     std::size_t triangles = 0;
-    std::size_t no_area = 0;   ///< degenerate in the file, or its whole plane seen edge-on
-    std::size_t culled = 0;    ///< back faces of single-sided materials
-    std::size_t outside = 0;   ///< behind the near plane, beyond the far plane or the guard band
-    std::size_t vanished = 0;  ///< no area left on the grid of 2^-32 px
-    std::size_t visible = 0;   ///< has pieces
-    std::size_t clipped = 0;   ///< of the visible ones: cut by a plane
+    std::size_t no_area = 0;    ///< degenerate in the file, or its whole plane seen edge-on
+    std::size_t culled = 0;     ///< back faces of single-sided materials
+    std::size_t invisible = 0;  ///< alpha 0 all over
+    std::size_t outside = 0;    ///< behind the near plane, beyond the far plane or the guard band
+    std::size_t vanished = 0;   ///< no area left on the grid of 2^-32 px
+    std::size_t visible = 0;    ///< has pieces
+    std::size_t clipped = 0;    ///< of the visible ones: cut by a plane
     std::size_t pieces = 0;
     std::size_t planes = 0;  ///< distinct planes of the file
 };

@@ -9,10 +9,12 @@ namespace edgewise {
 
 struct VisibilityStageOptions {
     VisibilityOptions cell;
-    bool skip_empty = true;  ///< a cell without triangles is the background's, and nothing is swept
+    glm::dvec2 film_offset_px{0.0};  ///< of the film's pixels on the screen, for messages
+    bool skip_empty = true;          ///< a cell without triangles is the background's, and nothing is swept
 };
 
-/// The map of the grid's cells. Bit-identical for any number of threads. Throws Interrupted when cancelled.
+/// The map of the grid's cells. Bit-identical for any number of threads. Throws Interrupted when cancelled,
+/// FailureError naming the pixel where more than kMaxLayers triangles are seen through each other.
 VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLists& lists,
                       const VisibilityStageOptions& options, Progress& progress, VisibilityCounts& counts);
 

@@ -73,6 +73,23 @@ void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 
 
 }  // namespace
 
+OwnerClasses OwnerClasses::ofMap(const LayerStacks& stacks, LayerStacks& named) const {
+    OwnerClasses out{representative, {}};
+    LayerStacks unsorted;
+    std::vector<Owner> layers;
+    for (std::size_t i = 0; i < stacks.size(); ++i) {
+        layers.clear();
+        for (const Owner layer : stacks.layers(static_cast<Owner>(kFirstStack + i)))
+            layers.push_back(of(layer));
+        out.stack_name.push_back(unsorted.owner(layers));
+    }
+    const LayerStacks* const parts[] = {&unsorted};
+    std::vector<std::vector<Owner>> names;
+    named = LayerStacks::joined(parts, names);
+    for (Owner& name : out.stack_name) name = names[0][name - kFirstStack];
+    return out;
+}
+
 WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius) {
     const TileLattice lattice(box);
     WeightTiles tiles;

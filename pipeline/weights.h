@@ -11,12 +11,20 @@
 
 namespace edgewise {
 
-/// Owners that shade alike are one: representative[owner]. Empty: every owner stands for itself.
+/// Owners that shade alike are one: representative[owner]; empty: every triangle stands for itself. Stacks go
+/// by the names that ofMap() gave them.
 struct OwnerClasses {
     std::vector<Owner> representative;
+    std::vector<Owner> stack_name;
     Owner of(Owner owner) const {
-        return owner == kBackground || representative.empty() ? owner : representative[owner];
+        if (owner == kBackground) return owner;
+        if (isStack(owner)) return stack_name[owner - kFirstStack];
+        return representative.empty() ? owner : representative[owner];
     }
+
+    /// These classes for the stacks of a map too: stacks whose layers shade alike are one, named by the
+    /// layers' representatives in `named`. So their order knows nothing of the map's other stacks.
+    OwnerClasses ofMap(const LayerStacks& stacks, LayerStacks& named) const;
 };
 
 /// Owner weights of the pixels of one box, pixel by pixel in rows: entries[offset[p]] .. entries[offset[p +

@@ -1,6 +1,7 @@
 // One sample at the pixel's centre: the front-most owner's colour there.
 #include <tbb/parallel_for.h>
 
+#include "pipeline/composite.h"
 #include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
@@ -19,29 +20,33 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     checkCancelled(in.progress);
     in.progress.stage("visibility", 0);
     const PointSampler sampler(screen, in.film.crop, 1);
-    const std::vector<Owner> owner = sampler.sample(in.film.crop);
+    const SampledOwners sampled = sampler.sample(in.film.crop);
     watch.book("visibility", result.stages);
     checkCancelled(in.progress);
     result.image = ImageBuffer(in.film.crop);
     const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);
     aov.begin(result.image);
-    aov.points(owner, result.image);
+    aov.points(sampled, result.image);
     in.progress.stage("shade", in.film.crop.height());
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
         for (int x = in.film.crop.x0; x < in.film.crop.x1; ++x) {
             const std::size_t i = result.image.index(x, y);
-            result.image.rgba[i] = owner[i] == kBackground
-                                       ? glm::dvec4(in.options.background, 0.0)
-                                       : glm::dvec4(shading.atPoint(owner[i], {x + 0.5, y + 0.5}).color, 1.0);
-            const OwnerWeight whole{owner[i], FixedWeight{1} << kWeightBits};
-            if (aov.weighs()) aov.pixel(x, y, {&whole, 1}, result.image);
+            const Shade seen = composite(
+                sampled.stacks.layersOf(sampled.owner[i]),
+                [&](Owner o) {
+                    return shading.atPoint(o, {x + 0.5, y + 0.5});
+                },
+                in.options.background);
+            result.image.rgba[i] = glm::dvec4(seen.color, seen.alpha);
+            const OwnerWeight whole{sampled.owner[i], FixedWeight{1} << kWeightBits};
+            if (aov.weighs()) aov.pixel(x, y, {&whole, 1}, sampled.stacks, result.image);
         }
         in.progress.advance(1);
     });
     watch.book("shade", result.stages);
     result.counts = {{"triangles", in.scene.triangle_count},
                      {"pieces", screen.triangles.size()},
-                     {"samples", owner.size()},
+                     {"samples", sampled.owner.size()},
                      {"exact_depths", sampler.exactDepths()}};
     reportAovs(aov, result);
     return result;

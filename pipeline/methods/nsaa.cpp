@@ -12,6 +12,7 @@
 
 #include "pipeline/bands.h"
 #include "pipeline/blend.h"
+#include "pipeline/composite.h"
 #include "pipeline/dump_stages.h"
 #include "pipeline/gather.h"
 #include "pipeline/methods/aov_report.h"
@@ -54,6 +55,7 @@ class Nsaa {
         checkCancelled(in.progress);
         in.progress.stage("plan", 0);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
+        plan_.visibility.film_offset_px = offset();
         watch_.book("plan", result_.stages);
         dump_.screen(screen_);
         dump_.plan(plan_.entries);
@@ -85,17 +87,14 @@ class Nsaa {
         const VisibleMap map = visibleMapOf(box);
         TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
-        worker.weights.run(map, tiles.segments.ids, plan_.classes, box, offset(), worker.tile);
+        const MapOwners owners(plan_.classes, map);
+        worker.weights.run(map, tiles.segments.ids, owners.classes, box, offset(), worker.tile);
         PixelReport out;
         FixedWeight sum = 0;
         for (const OwnerWeight& entry : worker.tile.entries) {
-            const double weight = std::ldexp(static_cast<double>(entry.weight), -kWeightBits);
             sum += entry.weight;
-            if (entry.owner == kBackground)
-                out.background = weight;
-            else
-                out.owners.push_back(
-                    {entry.owner, weight, shade(entry.owner, glm::dvec2(x + 0.5, y + 0.5) + offset())});
+            reportOwner(owners.stacks.layersOf(entry.owner), entry.weight,
+                        glm::dvec2(x + 0.5, y + 0.5) + offset(), out);
         }
         out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
         return out;
@@ -104,9 +103,43 @@ class Nsaa {
   private:
     glm::dvec2 offset() const { return in_.film.debug_offset_px; }
 
-    glm::dvec3 shade(Owner owner, glm::dvec2 sample_px) const {
-        if (!plan_.constant.empty() && plan_.constant[owner]) return plan_.constant[owner]->color;
-        return shading_.closest(owner, sample_px).color;
+    /// What the owners of a map's weights are.
+    struct MapOwners {
+        MapOwners(const OwnerClasses& triangles, const VisibleMap& map)
+            : classes(triangles.ofMap(map.stacks, stacks)) {}
+        LayerStacks stacks;
+        OwnerClasses classes;
+    };
+
+    /// Those that shade alike as one, for the picture; and each by itself, for the AOVs.
+    struct BandOwners {
+        BandOwners(const OwnerClasses& triangles, const VisibleMap& map, bool apart)
+            : alike(triangles, map) {
+            if (apart) each.emplace(OwnerClasses{}, map);
+        }
+        MapOwners alike;
+        std::optional<MapOwners> each;
+    };
+
+    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
+                     PixelReport& out) const {
+        const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
+        const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
+            out.owners.push_back(
+                {layers[k], weight * share, color, {layers.begin(), layers.begin() + k + 1}});
+        };
+        out.background += weight * throughLayers(
+                                       layers, [&](Owner o) { return shadeTriangle(o, sample); }, add);
+    }
+
+    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
+        if (!plan_.constant.empty() && plan_.constant[owner]) return *plan_.constant[owner];
+        return shading_.closest(owner, sample_px);
+    }
+
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+        return composite(
+            layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in_.options.background);
     }
 
     /// What stays as long as the picture is made: the image, the scene on the screen, the plan's tables.
@@ -142,12 +175,14 @@ class Nsaa {
         VisibleMap map = visibility(screen_, grid, lists, plan_.visibility, in_.progress, visibility_counts_);
         watch_.book("visibility", result_.stages);
         counts_["segments"] += map.segments.size();
+        counts_["stacks"] += map.stacks.size();
         return map;
     }
 
     void renderBand(const PixelBox& band) {
         checkCancelled(in_.progress);
         const VisibleMap map = visibleMapOf(band);
+        const BandOwners owners(plan_.classes, map, aov_.weighs() && !plan_.classes.representative.empty());
         dump_.segments(map, band, offset());
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
@@ -157,7 +192,7 @@ class Nsaa {
         in_.progress.stage(nameOf(band), tiles.boxes.size());
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
-            renderTile(map, tiles, t, workers.local());
+            renderTile(map, owners, tiles, t, workers.local());
             in_.progress.advance(1);
         });
         bookTiles(workers, watch_.lap());
@@ -170,31 +205,33 @@ class Nsaa {
         return fmt::format("weights to row {} of {}", band.y1 - crop.y0, crop.height());
     }
 
-    void renderTile(const VisibleMap& map, const WeightTiles& tiles, std::size_t t, TileWorker& worker) {
+    void renderTile(const VisibleMap& map, const BandOwners& owners, const WeightTiles& tiles, std::size_t t,
+                    TileWorker& worker) {
         const auto& lists = tiles.segments;
         const auto ids =
             std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]);
         Stopwatch watch;
-        worker.weights.run(map, ids, plan_.classes, tiles.boxes[t], offset(), worker.tile);
+        worker.weights.run(map, ids, owners.alike.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
         if (aov_.weighs()) {
-            fillAovs(map, ids, worker);
+            fillAovs(map, owners, ids, worker);
             watch.book("aov", worker.times);
         }
-        dump_.weights(worker.tile);
+        dump_.weights(worker.tile, owners.alike.stacks);
         worker.pairs += worker.tile.entries.size();
         blend(
-            worker.tile, offset(), [this](Owner o, glm::dvec2 s) { return shade(o, s); },
-            in_.options.background, result_.image);
+            worker.tile, offset(), [&](Owner o, glm::dvec2 s) { return shade(owners.alike.stacks.layersOf(o), s); },
+            result_.image);
         watch.book("blend", worker.times);
     }
 
     /// Owners stand for themselves here, not for all that shade alike: where the picture's weights were
     /// merged, they are computed once more, so that the picture keeps its bits whatever the AOVs.
-    void fillAovs(const VisibleMap& map, std::span<const std::uint32_t> ids, TileWorker& worker) {
-        if (plan_.classes.representative.empty()) return aov_.tile(worker.tile, result_.image);
-        worker.weights.run(map, ids, OwnerClasses{}, worker.tile.box, offset(), worker.every_owner);
-        aov_.tile(worker.every_owner, result_.image);
+    void fillAovs(const VisibleMap& map, const BandOwners& owners, std::span<const std::uint32_t> ids,
+                  TileWorker& worker) {
+        if (!owners.each) return aov_.tile(worker.tile, owners.alike.stacks, result_.image);
+        worker.weights.run(map, ids, owners.each->classes, worker.tile.box, offset(), worker.every_owner);
+        aov_.tile(worker.every_owner, owners.each->stacks, result_.image);
     }
 
     /// Stages share the tile loop: its wall time is divided as its threads' time was.

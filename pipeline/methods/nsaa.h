@@ -7,16 +7,18 @@
 
 namespace edgewise {
 
-/// One owner of a pixel.
+/// What a triangle gives to a pixel where one stack of layers lies over it: weight times colour.
 struct PixelOwner {
     std::uint32_t index;  ///< the contract's triangle index
-    double weight;
+    double
+        weight;  ///< of the stack's visible part, times what its layers in front let through, times its alpha
     glm::dvec3 color;
+    std::vector<std::uint32_t> layers;  ///< the triangles in front of it, front to back, then itself
 };
 
 struct PixelReport {
-    std::vector<PixelOwner> owners;  ///< ascending index
-    double background = 0.0;         ///< its own integral
+    std::vector<PixelOwner> owners;  ///< opaque ones by ascending index, then stack by stack
+    double background = 0.0;         ///< its own integral, and what stacks let through to it
     double sum = 0.0;                ///< of all weights, summed exactly and rounded once
 };
 

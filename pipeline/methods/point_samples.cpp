@@ -1,14 +1,19 @@
 #include "pipeline/methods/point_samples.h"
 
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <span>
 #include <utility>
 
 #include "analytic/exact_depth.h"
+#include "pipeline/error.h"
 #include "pipeline/grid_orientation.h"
 #include "pipeline/screen_map.h"
 
@@ -36,15 +41,21 @@ double sampleOffsetPx(int a, int per_side) {
 /// One tile's samples and what has been seen at them so far.
 class TileSampler {
   public:
-    void run(const PointSampler& sampler, std::size_t tile, const PixelBox& window, std::vector<Owner>& out) {
+    void run(const PointSampler& sampler, std::size_t tile, const PixelBox& window, SampledOwners& out) {
         const PixelBox whole = sampler.tileBox(tile);
         box_ = {std::max(whole.x0, window.x0), std::max(whole.y0, window.y0), std::min(whole.x1, window.x1),
                 std::min(whole.y1, window.y1)};
         scene_ = &sampler.scene_;
         per_side_ = sampler.per_side_;
+        stacks_mutex_ = &sampler.stacks_mutex_;
         begin();
-        for (std::size_t i = sampler.first_[tile]; i < sampler.first_[tile + 1]; ++i)
-            cover(sampler.binned_[i]);
+        const auto all = std::span(sampler.binned_)
+                             .subspan(sampler.first_[tile], sampler.first_[tile + 1] - sampler.first_[tile]);
+        for (const std::uint32_t i : all)
+            if (!seesThrough(i)) cover(i);
+        if (!scene_->see_through.empty())
+            for (const std::uint32_t i : all)
+                if (seesThrough(i)) addPanes(i);
         write(window, out);
         sampler.exact_depths_ += exact_depths_;
     }
@@ -52,7 +63,19 @@ class TileSampler {
   private:
     static constexpr std::uint32_t kNothing = 0xffffffffu;
 
+    /// A see-through triangle in front of what ends the view at a sample.
+    struct Pane {
+        std::size_t sample;
+        std::uint32_t triangle;
+        double depth;
+    };
+
+    bool seesThrough(std::uint32_t triangle) const {
+        return scene_->seesThrough(scene_->triangles[triangle].owner);
+    }
+
     void begin() {
+        panes_.clear();
         place(box_.x0, box_.width(), x_px_);
         place(box_.y0, box_.height(), y_px_);
         dx_.clear();
@@ -71,6 +94,27 @@ class TileSampler {
 
     void cover(std::uint32_t index) {
         const ScreenTriangle& t = scene_->triangles[index];
+        forSamplesOf(t, [&](std::size_t i, double dx, double dy, double z, double bound) {
+            const double ahead = z - depth_[i];
+            if (ahead < -bound || (ahead <= bound && !exactlyNearer(t, seen_[i], dx, dy))) return;
+            depth_[i] = z;
+            seen_[i] = index;
+        });
+    }
+
+    void addPanes(std::uint32_t index) {
+        const ScreenTriangle& t = scene_->triangles[index];
+        forSamplesOf(t, [&](std::size_t i, double dx, double dy, double z, double bound) {
+            const double ahead = z - depth_[i];
+            if (ahead > bound || (ahead >= -bound && inFront(index, seen_[i], dx, dy)))
+                panes_.push_back({i, index, z});
+        });
+    }
+
+    /// Calls visit(sample, dx, dy, depth, bound) for the samples that t covers: offsets from the anchor, and
+    /// what may separate its depth from another's by rounding.
+    template <class Visit>
+    void forSamplesOf(const ScreenTriangle& t, const Visit& visit) {
         const DepthPlane& plane = scene_->planes[t.plane];
         const double y_min = std::min({t.p_px[0].y, t.p_px[1].y, t.p_px[2].y});
         const double y_max = std::max({t.p_px[0].y, t.p_px[1].y, t.p_px[2].y});
@@ -80,7 +124,7 @@ class TileSampler {
         const double error = depthError(plane);
         worst_error_ = std::max(worst_error_, error);
         for (auto row = static_cast<std::size_t>(row_begin); row < static_cast<std::size_t>(row_end); ++row)
-            coverRow(index, t, plane, row, error + worst_error_);
+            visitRow(t, plane, row, error + worst_error_, visit);
     }
 
     /// Bound of |z_computed - z| in this tile: z = A dx + (B dy + C) with at most 3 u of each term, u =
@@ -93,21 +137,15 @@ class TileSampler {
                           std::fabs(plane.z_anchor));
     }
 
-    void coverRow(std::uint32_t index, const ScreenTriangle& t, const DepthPlane& plane, std::size_t row,
-                  double bound) {
+    template <class Visit>
+    void visitRow(const ScreenTriangle& t, const DepthPlane& plane, std::size_t row, double bound,
+                  const Visit& visit) {
         std::size_t begin = 0, end = x_px_.size();
         const double y = y_px_[row];
         for (int k = 0; k < 3 && begin < end; ++k) cutSpan(t.p_px[k], t.p_px[(k + 1) % 3], y, begin, end);
-        if (begin >= end) return;
         const double dy = y - scene_->anchor_px.y, at_row = plane.dz_dy * dy + plane.z_anchor;
-        double* depth = depth_.data() + row * x_px_.size();
-        std::uint32_t* seen = seen_.data() + row * x_px_.size();
-        for (std::size_t j = begin; j < end; ++j) {
-            const double z = plane.dz_dx * dx_[j] + at_row, ahead = z - depth[j];
-            if (ahead < -bound || (ahead <= bound && !exactlyNearer(t, seen[j], dx_[j], dy))) continue;
-            depth[j] = z;
-            seen[j] = index;
-        }
+        for (std::size_t j = begin; j < end; ++j)
+            visit(row * x_px_.size() + j, dx_[j], dy, plane.dz_dx * dx_[j] + at_row, bound);
     }
 
     /// Keeps the samples of the row that lie inside the edge, or on it where it is a top or left edge.
@@ -144,16 +182,59 @@ class TileSampler {
         return depthDifferenceSign(scene_->planes[t.plane], scene_->planes[other], dx, dy) > 0;
     }
 
-    void write(const PixelBox& window, std::vector<Owner>& out) const {
+    /// Whether a triangle is in front of another, decided exactly: by depth, then by index. Nothing is behind
+    /// all.
+    bool inFront(std::uint32_t index, std::uint32_t other, double dx, double dy) {
+        if (other == kNothing) return true;
+        const ScreenTriangle &t = scene_->triangles[index], &o = scene_->triangles[other];
+        if (t.plane == o.plane) return t.owner < o.owner;
+        ++exact_depths_;
+        const int sign = depthDifferenceSign(scene_->planes[t.plane], scene_->planes[o.plane], dx, dy);
+        return sign != 0 ? sign > 0 : t.owner < o.owner;
+    }
+
+    void write(const PixelBox& window, SampledOwners& out) {
+        const std::size_t columns = x_px_.size();
         const std::size_t stride = static_cast<std::size_t>(window.width()) * per_side_;
         const std::size_t corner = static_cast<std::size_t>(box_.y0 - window.y0) * per_side_ * stride +
                                    static_cast<std::size_t>(box_.x0 - window.x0) * per_side_;
-        for (std::size_t row = 0; row < y_px_.size(); ++row)
-            for (std::size_t j = 0; j < x_px_.size(); ++j) {
-                const std::uint32_t seen = seen_[row * x_px_.size() + j];
-                out[corner + row * stride + j] =
-                    seen == kNothing ? kBackground : scene_->triangles[seen].owner;
-            }
+        const auto at = [&](std::size_t i) { return corner + i / columns * stride + i % columns; };
+        for (std::size_t i = 0; i < seen_.size(); ++i)
+            out.owner[at(i)] = seen_[i] == kNothing ? kBackground : scene_->triangles[seen_[i]].owner;
+        sortPanes();
+        for (std::size_t first = 0, end = 0; first < panes_.size(); first = end) {
+            layers_.clear();
+            const std::size_t sample = panes_[first].sample;
+            for (end = first; end < panes_.size() && panes_[end].sample == sample; ++end)
+                layers_.push_back(scene_->triangles[panes_[end].triangle].owner);
+            if (layers_.size() > kMaxLayers) throw LayerLimit{positionOf(sample)};
+            layers_.push_back(out.owner[at(sample)]);
+            out.owner[at(sample)] = nameOf(out.stacks);
+        }
+    }
+
+    /// By sample, then front to back.
+    void sortPanes() {
+        std::ranges::sort(panes_, [&](const Pane& p, const Pane& q) {
+            if (p.sample != q.sample) return p.sample < q.sample;
+            if (p.triangle == q.triangle) return false;
+            const double ahead = p.depth - q.depth, bound = 2.0 * worst_error_;
+            if (std::abs(ahead) > bound) return ahead > 0.0;
+            return inFront(p.triangle, q.triangle, dx_[p.sample % dx_.size()],
+                           y_px_[p.sample / dx_.size()] - scene_->anchor_px.y);
+        });
+    }
+
+    /// Neighbours mostly share their stack: only another one asks the table, which all threads use.
+    Owner nameOf(LayerStacks& stacks) {
+        if (layers_ == last_layers_) return last_name_;
+        const std::lock_guard lock(*stacks_mutex_);
+        last_layers_ = layers_;
+        return last_name_ = stacks.owner(layers_);
+    }
+
+    glm::dvec2 positionOf(std::size_t sample) const {
+        return {x_px_[sample % x_px_.size()], y_px_[sample / x_px_.size()]};
     }
 
     const ScreenScene* scene_ = nullptr;
@@ -163,6 +244,10 @@ class TileSampler {
     std::vector<std::uint32_t> seen_;
     double worst_error_ = 0.0;
     std::uint64_t exact_depths_ = 0;
+    std::vector<Pane> panes_;
+    std::vector<Owner> layers_, last_layers_;
+    std::mutex* stacks_mutex_ = nullptr;
+    Owner last_name_ = kBackground;
 };
 
 PointSampler::PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side)
@@ -226,16 +311,41 @@ void PointSampler::binTriangles() {
         [&](std::size_t& cursor, std::size_t i) { binned_[cursor++] = static_cast<std::uint32_t>(i); });
 }
 
-std::vector<Owner> PointSampler::sample(const PixelBox& window) const {
-    std::vector<Owner> out(static_cast<std::size_t>(window.width()) * window.height() * per_side_ *
-                           per_side_);
+namespace {
+
+/// Stacks come by threads: their names are exchanged for those of the sorted table.
+void sortStacks(SampledOwners& sampled) {
+    if (sampled.stacks.empty()) return;
+    const LayerStacks* const parts[] = {&sampled.stacks};
+    std::vector<std::vector<Owner>> names;
+    sampled.stacks = LayerStacks::joined(parts, names);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sampled.owner.size(), 1 << 16),
+                      [&](const auto& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              if (isStack(sampled.owner[i]))
+                                  sampled.owner[i] = names[0][sampled.owner[i] - kFirstStack];
+                      });
+}
+
+}  // namespace
+
+SampledOwners PointSampler::sample(const PixelBox& window) const {
+    SampledOwners out;
+    out.owner.resize(static_cast<std::size_t>(window.width()) * window.height() * per_side_ * per_side_);
     const int x0 = (window.x0 - box_.x0) / tile_px_, x1 = (window.x1 - box_.x0 + tile_px_ - 1) / tile_px_;
     const int y0 = (window.y0 - box_.y0) / tile_px_, y1 = (window.y1 - box_.y0 + tile_px_ - 1) / tile_px_;
     tbb::enumerable_thread_specific<TileSampler> samplers;
-    tbb::parallel_for(0, (x1 - x0) * (y1 - y0), [&](int i) {
-        const int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
-        samplers.local().run(*this, static_cast<std::size_t>(y) * tiles_x_ + x, window, out);
-    });
+    try {
+        tbb::parallel_for(0, (x1 - x0) * (y1 - y0), [&](int i) {
+            const int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
+            samplers.local().run(*this, static_cast<std::size_t>(y) * tiles_x_ + x, window, out);
+        });
+    } catch (const LayerLimit& limit) {
+        throw FailureError(
+            fmt::format("pixel {:.0f},{:.0f}", std::floor(limit.at_px.x), std::floor(limit.at_px.y)),
+            fmt::format("more than {} triangles are seen through each other", kMaxLayers));
+    }
+    sortStacks(out);
     return out;
 }
 

@@ -3,9 +3,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
-#include "analytic/screen_triangle.h"
+#include "analytic/layer_stacks.h"
 #include "pipeline/film.h"
 
 namespace edgewise {
@@ -13,6 +14,12 @@ namespace edgewise {
 /// Sample (a, b) of a pixel lies at ((a + 1/2)/K, (b + 1/2)/K), rounded to the grid of 2^-32 px where K is no
 /// power of 2.
 double sampleOffsetPx(int a, int per_side);
+
+/// Owners of samples: triangles, stacks of see-through layers, or the background.
+struct SampledOwners {
+    std::vector<Owner> owner;
+    LayerStacks stacks;  ///< sorted: the same for any threads
+};
 
 /// Looks up samples of one projected scene. Every decision is exact:
 /// inside by the orientation of grid points, a point on an edge belonging to the triangle whose top or left
@@ -24,8 +31,8 @@ class PointSampler {
     PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side);
 
     /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by
-    /// tiles.
-    std::vector<Owner> sample(const PixelBox& window) const;
+    /// tiles. Throws FailureError naming the pixel where a sample has more than kMaxLayers layers.
+    SampledOwners sample(const PixelBox& window) const;
 
     /// Depth decisions that the rounded planes left open.
     std::uint64_t exactDepths() const { return exact_depths_; }
@@ -45,6 +52,7 @@ class PointSampler {
     std::vector<std::size_t> first_;     ///< by tile, into binned_
     std::vector<std::uint32_t> binned_;  ///< triangles of each tile, ascending
     mutable std::atomic<std::uint64_t> exact_depths_{0};
+    mutable std::mutex stacks_mutex_;
 };
 
 }  // namespace edgewise

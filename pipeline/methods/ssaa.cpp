@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "pipeline/composite.h"
 #include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
@@ -21,9 +22,10 @@ struct SampleBand {
     PixelBox window;
     std::size_t stride = 0;  ///< samples a row
     std::vector<Owner> owner;
+    LayerStacks stacks;
     std::vector<std::uint32_t>
-        run_end;  ///< the first sample of the row, at or after this one, with another owner
-    std::vector<glm::dvec3> colour;  ///< where each sample is shaded where it lands
+        run_end;               ///< the first sample of the row, at or after this one, with another owner
+    std::vector<Shade> shade;  ///< where each sample is shaded where it lands
 };
 
 /// Samples [begin, end) of one row of a pixel's window that one owner covers.
@@ -37,6 +39,7 @@ struct OwnerPart {
     glm::dvec3 weighted{0.0};  ///< weight times colour
     glm::dvec3 colour{0.0};
     double weight = 0.0;
+    double covered = 0.0;  ///< weight times alpha
 };
 
 double toDouble(FixedWeight weight) {
@@ -50,10 +53,10 @@ class PixelFilter {
         : in_(in), shading_(shading), aov_(aov), weights_(weights), per_side_(per_side) {}
 
     void shadeSamples(SampleBand& band) const {
-        band.colour.resize(band.owner.size());
+        band.shade.resize(band.owner.size());
         tbb::parallel_for(std::size_t(0), band.owner.size() / band.stride, [&](std::size_t row) {
             for (std::size_t i = row * band.stride; i < (row + 1) * band.stride; ++i)
-                band.colour[i] = colourAt(band.owner[i], position(band, row, i - row * band.stride));
+                band.shade[i] = shadeAt(band, band.owner[i], position(band, row, i - row * band.stride));
         });
     }
 
@@ -64,7 +67,7 @@ class PixelFilter {
         for (int x = image.box.x0; x < image.box.x1; ++x) {
             collectRuns(band, x, y, runs);
             count += blend(band, x, y, runs, image);
-            if (aov_.weighs()) aov_.pixel(x, y, ownerWeights(runs), image);
+            if (aov_.weighs()) aov_.pixel(x, y, ownerWeights(runs), band.stacks, image);
         }
         shaded += count;
     }
@@ -115,7 +118,7 @@ class PixelFilter {
             std::size_t end = begin + 1;
             while (end < runs.size() && runs[end].owner == runs[begin].owner) ++end;
             const OwnerPart part = partOf(band, x, y, std::span(runs).subspan(begin, end - begin));
-            sum += glm::dvec4(part.weighted, runs[begin].owner == kBackground ? 0.0 : part.weight);
+            sum += glm::dvec4(part.weighted, part.covered);
             least = glm::min(least, part.colour);
             most = glm::max(most, part.colour);
             begin = end;
@@ -133,33 +136,41 @@ class PixelFilter {
         OwnerPart part;
         part.weight = toDouble(weight);
         if (in_.options.shading.mode == ShadingMode::kHit) return hitPart(band, x, y, runs, part);
-        part.colour = shade(band, x, y, runs);
+        const Shade seen = shade(band, x, y, runs);
+        part.colour = seen.color;
         part.weighted = part.colour * part.weight;
+        part.covered = part.weight * seen.alpha;
         return part;
     }
 
-    glm::dvec3 shade(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
-        const Owner owner = runs.front().owner;
-        if (owner == kBackground) return in_.options.background;
-        if (in_.options.shading.mode == ShadingMode::kClosest)
-            return shading_.closest(owner, {x + 0.5, y + 0.5}).color;
-        if (const auto shade = shading_.constant(owner)) return shade->color;
+    /// Every layer of the owner is shaded where the owner as a whole is seen.
+    Shade shade(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs) const {
+        const Owner& owner = runs.front().owner;
+        const auto layers = band.stacks.layersOf(owner);
+        const glm::dvec2 corner(x, y);
+        const auto over = [&](const auto& shadeLayer) {
+            return composite(layers, shadeLayer, in_.options.background);
+        };
+        if (in_.options.shading.mode == ShadingMode::kClosest || owner == kBackground)
+            return over([&](Owner o) { return shading_.closest(o, corner + 0.5); });
         const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
-        if (in_.options.shading.mode == ShadingMode::kCentroid) {
-            glm::dvec2 sum(0.0);
-            for (const glm::dvec2& p : seen) sum += p - glm::dvec2(x, y);
-            return shading_.closest(owner, glm::dvec2(x, y) + sum / double(seen.size())).color;
-        }
-        return meanOver(owner, seen);
+        if (in_.options.shading.mode == ShadingMode::kSamples)
+            return over([&](Owner o) { return meanOver(o, seen); });
+        glm::dvec2 sum(0.0);
+        for (const glm::dvec2& p : seen) sum += p - corner;
+        return over([&](Owner o) { return shading_.closest(o, corner + sum / double(seen.size())); });
     }
 
-    /// The mean over N of the seen samples, spread evenly in their order.
-    glm::dvec3 meanOver(Owner owner, const std::vector<glm::dvec2>& seen) const {
+    /// The mean over N of the seen samples, spread evenly in their order; colours count by their alpha.
+    Shade meanOver(Owner owner, const std::vector<glm::dvec2>& seen) const {
+        if (const auto constant = shading_.constant(owner)) return *constant;
         const std::size_t count = std::min<std::size_t>(in_.options.shading.samples, seen.size());
-        glm::dvec3 sum(0.0);
-        for (std::size_t i = 0; i < count; ++i)
-            sum += shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]).color;
-        return sum / double(count);
+        Shade sum{glm::dvec3(0.0), 0.0};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Shade one = shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]);
+            sum.color += one.alpha * one.color, sum.alpha += one.alpha;
+        }
+        return {sum.alpha > 0.0 ? sum.color / sum.alpha : sum.color, sum.alpha / double(count)};
     }
 
     OwnerPart hitPart(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs,
@@ -168,8 +179,10 @@ class PixelFilter {
         for (const OwnerRun& run : runs) {
             const std::size_t start = firstSample(band, x, y, run.row);
             for (int i = run.begin; i < run.end; ++i, ++count) {
-                part.colour += band.colour[start + i];
-                part.weighted += band.colour[start + i] * toDouble(weights_.rows[run.row].of(i, i + 1));
+                const double weight = toDouble(weights_.rows[run.row].of(i, i + 1));
+                part.colour += band.shade[start + i].color;
+                part.weighted += band.shade[start + i].color * weight;
+                part.covered += band.shade[start + i].alpha * weight;
             }
         }
         part.colour /= double(count);
@@ -195,8 +208,10 @@ class PixelFilter {
         return {place(band.window.x0, column), place(band.window.y0, row)};
     }
 
-    glm::dvec3 colourAt(Owner owner, glm::dvec2 p_px) const {
-        return owner == kBackground ? in_.options.background : shading_.atPoint(owner, p_px).color;
+    Shade shadeAt(const SampleBand& band, const Owner& owner, glm::dvec2 p_px) const {
+        return composite(
+            band.stacks.layersOf(owner), [&](Owner o) { return shading_.atPoint(o, p_px); },
+            in_.options.background);
     }
 
     const MethodInput& in_;
@@ -225,7 +240,7 @@ PixelBox grown(const PixelBox& box, int margin) {
 /// Rows of pixels whose samples fit half the memory; at least one.
 int rowsPerBand(const RenderOptions& options, const PixelBox& crop, int margin, int per_side) {
     const bool hit = options.shading.mode == ShadingMode::kHit;
-    const double bytes = sizeof(Owner) + sizeof(std::uint32_t) + (hit ? sizeof(glm::dvec3) : 0);
+    const double bytes = sizeof(Owner) + sizeof(std::uint32_t) + (hit ? sizeof(Shade) : 0);
     const double row_bytes = bytes * per_side * per_side * (crop.width() + 2.0 * margin);
     const double rows = 0.5 * 0x1p20 * double(options.memory_mib) / row_bytes - 2.0 * margin;
     return static_cast<int>(std::clamp(rows, 1.0, double(crop.height())));
@@ -261,7 +276,8 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
         SampleBand band;
         band.window = grown(part, weights.margin_px);
         band.stride = static_cast<std::size_t>(band.window.width()) * per_side;
-        band.owner = sampler.sample(band.window);
+        SampledOwners sampled = sampler.sample(band.window);
+        band.owner = std::move(sampled.owner), band.stacks = std::move(sampled.stacks);
         samples += band.owner.size();
         watch.book("visibility", result.stages);
         findRuns(band);

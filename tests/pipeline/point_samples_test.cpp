@@ -81,7 +81,7 @@ ScreenScene randomScene(std::mt19937& random, int count, int lattice, int size) 
 void compare(const ScreenScene& scene, const PixelBox& box, const PixelBox& window, int per_side, Seen& seen,
              std::uint64_t& exact_depths) {
     const PointSampler sampler(scene, box, per_side);
-    const auto owners = sampler.sample(window);
+    const auto owners = sampler.sample(window).owner;
     for (int y = 0; y < window.height() * per_side; ++y)
         for (int x = 0; x < window.width() * per_side; ++x) {
             const glm::dvec2 s(window.x0 + x / per_side + sampleOffsetPx(x % per_side, per_side),
@@ -139,8 +139,8 @@ TEST(PointSamples, TilesAndWindowsDoNotShow) {
     std::mt19937 random(29);
     const ScreenScene scene = randomScene(random, 300, 0, 100);
     const PixelBox all{0, 0, 100, 100}, part{13, 37, 90, 81};
-    const auto whole = PointSampler(scene, all, 4).sample(all);
-    const auto cut = PointSampler(scene, part, 4).sample(part);
+    const auto whole = PointSampler(scene, all, 4).sample(all).owner;
+    const auto cut = PointSampler(scene, part, 4).sample(part).owner;
     for (int y = 0; y < part.height() * 4; ++y)
         for (int x = 0; x < part.width() * 4; ++x)
             ASSERT_EQ(cut[std::size_t(y) * part.width() * 4 + x],

@@ -88,11 +88,12 @@ class EventFinder {
         if (onBoundary(b, u, v)) addPoint(u, v, b.i, b.j);
     }
 
-    /// Two depth lines meet visibly only where three triangles are equally deep, so they share one of them.
+    /// Two depth lines of opaque triangles meet visibly only where three are equally deep, so they share one.
     void addCrossing(const Boundary& b, const Boundary& d) {
         if (b.v_hi < d.v_lo - kKeepMargin || d.v_hi < b.v_lo - kKeepMargin) return;
         const bool shares = b.i == d.i || b.i == d.j || b.j == d.i || b.j == d.j;
-        if (b.is_depth && d.is_depth && !shares) return;
+        const bool opaque = ends(b.i) && ends(b.j) && ends(d.i) && ends(d.j);
+        if (b.is_depth && d.is_depth && !shares && opaque) return;
         const Real determinant = b.line.a * d.line.b - b.line.b * d.line.a;
         if (determinant == 0) return;
         const Real u = (b.line.b * d.line.c - b.line.c * d.line.b) / determinant;
@@ -111,10 +112,13 @@ class EventFinder {
                                scene_.triangles()[b.j].depthInside(u, v) >= -kKeepMargin);
     }
 
-    /// Some other triangle covers the neighbourhood of (u, v) and is nearer there than triangle i.
+    /// Whether the view ends at a triangle.
+    bool ends(std::size_t i) const { return !scene_.triangles()[i].see_through; }
+
+    /// Some other opaque triangle covers the neighbourhood of (u, v) and is nearer there than triangle i.
     bool hidden(std::size_t i, Real u, Real v) const {
         for (std::size_t t = 0; t < scene_.triangles().size(); ++t)
-            if (t != i && scene_.nearer(t, i).at(u, v) > kKeepMargin &&
+            if (t != i && ends(t) && scene_.nearer(t, i).at(u, v) > kKeepMargin &&
                 scene_.triangles()[t].depthInside(u, v) > kKeepMargin)
                 return true;
         return false;

@@ -73,6 +73,7 @@ LocalScene::LocalScene(const ScreenScene& scene, glm::dvec2 sample_px, Real radi
     anchor_ = {Quad(scene.anchor_px.x) - sample_px.x, Quad(scene.anchor_px.y) - sample_px.y};
     for (const ScreenTriangle& triangle : scene.triangles) {
         LocalTriangle local = makeLocal(triangle, sample_px);
+        local.see_through = scene.seesThrough(triangle.owner);
         if (meets(local, radius)) triangles_.push_back(local);
     }
     dropHidden(radius);
@@ -84,7 +85,7 @@ LocalScene::LocalScene(const ScreenScene& scene, glm::dvec2 sample_px, Real radi
 
 void LocalScene::dropHidden(Real radius) {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        if (!covers(triangles_[i], radius)) continue;
+        if (triangles_[i].see_through || !covers(triangles_[i], radius)) continue;
         const LocalTriangle front = triangles_[i];
         std::erase_if(triangles_, [&](const LocalTriangle& t) {
             return t.plane != front.plane && least(difference(front, t), radius) > 0;

@@ -28,6 +28,7 @@ struct Side {
 struct LocalTriangle {
     Owner owner = 0;
     std::uint32_t plane = 0;
+    bool see_through = false;
     std::array<std::array<Real, 2>, 3> corner{};
     std::array<Side, 3> side{};
     Real v_lo = 0, v_hi = 0;

@@ -49,11 +49,24 @@ void Scanline::addDepthBreak(const Span& one, const Span& other, Real v) {
 }
 
 Owner Scanline::ownerOfActive(Real u, Real v) {
-    if (active_.empty()) return kBackground;
-    std::size_t best = active_.front().triangle;
-    for (const Span& span : active_)
-        if (span.triangle != best && scene_.wins(span.triangle, best, u, v)) best = span.triangle;
-    return scene_.triangles()[best].owner;
+    std::vector<std::size_t> order;
+    for (const Span& span : active_) order.push_back(span.triangle);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return i != j && scene_.wins(i, j, u, v); });
+    std::vector<Owner> layers;
+    for (std::size_t i : order) {
+        const LocalTriangle& t = scene_.triangles()[i];
+        if (layers.empty() || layers.back() != t.owner) layers.push_back(t.owner);
+        if (!t.see_through) return nameOf(layers);
+    }
+    layers.push_back(kBackground);
+    return nameOf(layers);
+}
+
+Owner Scanline::nameOf(const std::vector<Owner>& layers) {
+    constexpr Owner kFirstName = 0x80000000u;
+    if (layers.size() == 1) return layers.front();
+    return stacks_.try_emplace(layers, kFirstName + Owner(stacks_.size())).first->second;
 }
 
 void Scanline::collectRuns(Real v) {

@@ -17,11 +17,10 @@ class OuterIntegral {
   public:
     OuterIntegral(const LocalScene& scene, const Kernel& kernel, Real tolerance)
         : kernel_(kernel), scanline_(scene), tolerance_(tolerance) {
-        for (const LocalTriangle& t : scene.triangles()) slot_.try_emplace(t.owner, 0);
-        slot_.try_emplace(kBackground, 0);
-        std::size_t next = 0;
-        for (auto& [owner, slot] : slot_) slot = next++;
-        sum_.resize(next + 1);  // the last slot integrates the inner error estimates
+        sum_.resize(1);  // slot 0 integrates the inner error estimates
+        slotOf(kBackground);
+        for (const LocalTriangle& t : scene.triangles())
+            if (!t.see_through) slotOf(t.owner);
     }
 
     Judgement over(const std::vector<Real>& ordinates) {
@@ -33,7 +32,8 @@ class OuterIntegral {
             result_.weight[owner] = sum_[slot].value;
             result_.error = std::max(result_.error, sum_[slot].error);
         }
-        result_.error += sum_.back().value + sum_.back().error;
+        result_.error += sum_[0].value + sum_[0].error;
+        result_.stacks = scanline_.stacks();
         return result_;
     }
 
@@ -46,6 +46,13 @@ class OuterIntegral {
     std::vector<Estimate> sum_;
     Judgement result_;
 
+    /// Stacks of layers are met as they come.
+    std::size_t slotOf(Owner owner) {
+        const auto [slot, is_new] = slot_.try_emplace(owner, sum_.size());
+        if (is_new) sum_.emplace_back();
+        return slot->second;
+    }
+
     Real parameter(Real v) const { return kernel_.disk ? std::asin(v / kernel_.radius) : v; }
     Real span() const { return kernel_.disk ? std::numbers::pi_v<Real> : 2 * kernel_.radius; }
 
@@ -53,11 +60,12 @@ class OuterIntegral {
         const Real middle = (from + to) / 2, half = (to - from) / 2;
         std::array<Values, kNodes> at_node;
         for (int i = 0; i < kNodes; ++i) at_node[i] = scan(middle + half * KronrodRule::get().node[i]);
+        for (Values& values : at_node) values.resize(sum_.size(), 0);
         std::vector<Estimate> estimate(sum_.size());
         Real worst = 0;
         for (std::size_t s = 0; s < sum_.size(); ++s) {
             estimate[s] = applyRule([&](int i) { return at_node[i][s]; }, half);
-            if (s + 1 < sum_.size()) worst = std::max(worst, estimate[s].error);
+            if (s > 0) worst = std::max(worst, estimate[s].error);
         }
         if (worst <= tolerance_ * (2 * half / span()) + tolerance_ * 0x1p-12L || depth == 0) {
             for (std::size_t s = 0; s < sum_.size(); ++s) sum_[s] += estimate[s];
@@ -76,8 +84,10 @@ class OuterIntegral {
         Values values(sum_.size(), 0);
         for (const Run& run : scanline_.cut(v, half_chord)) {
             const Estimate part = inner(run.u_lo, run.u_hi, v);
-            values[slot_.at(run.owner)] += part.value * dv_dt;
-            values.back() += part.error * dv_dt;
+            const std::size_t slot = slotOf(run.owner);
+            values.resize(sum_.size(), 0);
+            values[slot] += part.value * dv_dt;
+            values[0] += part.error * dv_dt;
         }
         return values;
     }

@@ -11,10 +11,11 @@
 namespace edgewise::witness {
 
 struct Judgement {
-    std::map<Owner, Real> weight;  ///< every owner met on a scanline, the background too
-    Real error = 0;                ///< estimated absolute error of the largest deviation of any one weight
-    std::size_t pieces = 0;        ///< outer intervals between events
-    std::size_t scanlines = 0;     ///< scanlines evaluated
+    std::map<Owner, Real> weight;                ///< every owner met on a scanline, the background too
+    std::map<std::vector<Owner>, Owner> stacks;  ///< what owners of several layers are: front to back
+    Real error = 0;             ///< estimated absolute error of the largest deviation of any one weight
+    std::size_t pieces = 0;     ///< outer intervals between events
+    std::size_t scanlines = 0;  ///< scanlines evaluated
     Real of(Owner owner) const {
         const auto found = weight.find(owner);
         return found == weight.end() ? 0 : found->second;

@@ -1,0 +1,42 @@
+// Layers over each other: "over" from front to back, in linear light.
+//     colour = sum_k T_k alpha_k c_k + T_n c_background,  T_k = product of (1 - alpha_j) over the layers j <
+//     k
+// What ends a stack is there whole, whatever its material says of alpha: visibility has decided that.
+#pragma once
+
+#include <span>
+
+#include "analytic/layer_stacks.h"
+#include "pipeline/shade.h"
+
+namespace edgewise {
+
+/// Calls visit(k, share, colour) for each triangle of a stack, front to back, share = T_k alpha_k;
+/// shade(owner) gives its Shade. Returns what is left for the background: 0 where the stack ends in a
+/// triangle.
+template <class ShadeLayer, class Visit>
+double throughLayers(std::span<const Owner> layers, const ShadeLayer& shade, const Visit& visit) {
+    double left = 1.0;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        if (layers[k] == kBackground) return left;
+        const Shade layer = shade(layers[k]);
+        const bool last = k + 1 == layers.size();
+        const double share = last ? left : left * layer.alpha;
+        visit(k, share, layer.color);
+        left = last ? 0.0 : left * (1.0 - layer.alpha);
+    }
+    return left;
+}
+
+/// The colour of a stack over the background, and its alpha: the share that is not the background's.
+template <class ShadeLayer>
+Shade composite(std::span<const Owner> layers, const ShadeLayer& shade, const glm::dvec3& background) {
+    if (layers.size() == 1)
+        return layers[0] == kBackground ? Shade{background, 0.0} : Shade{shade(layers[0]).color, 1.0};
+    glm::dvec3 color(0.0);
+    const double left = throughLayers(
+        layers, shade, [&](std::size_t, double share, const glm::dvec3& c) { color += share * c; });
+    return {color + left * background, 1.0 - left};
+}
+
+}  // namespace edgewise
