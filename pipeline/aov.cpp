@@ -170,8 +170,7 @@ void AovPass::tile(const WeightTile& tile, const LayerStacks& stacks, ImageBuffe
     std::size_t p = 0;
     for (int y = tile.box.y0; y < tile.box.y1; ++y)
         for (int x = tile.box.x0; x < tile.box.x1; ++x, ++p)
-            pixel(x, y,
-                  std::span(tile.entries).subspan(tile.offset[p], tile.offset[p + 1] - tile.offset[p]),
+            pixel(x, y, std::span(tile.entries).subspan(tile.offset[p], tile.offset[p + 1] - tile.offset[p]),
                   stacks, image);
 }
 

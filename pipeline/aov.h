@@ -27,8 +27,8 @@ struct SampledOwners;
 ///     index        index          uint32, the triangle's index; 4294967295 where nothing is
 /// See-through layers count as surfaces where they are there at all: the nearest whose alpha is not 0.
 /// Integrated over the filter's support:
-///     owners       owners         how many owners have a weight other than 0, the background among them; a stack of layers is one
-///     cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
+///     owners       owners         how many owners have a weight other than 0, the background among them; a
+///     stack of layers is one cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
 enum class Aov { kDepth, kNormal, kIndex, kOwners, kCryptomatte };
 
 /// In the order of their channels.

@@ -113,8 +113,7 @@ class Nsaa {
 
     /// Those that shade alike as one, for the picture; and each by itself, for the AOVs.
     struct BandOwners {
-        BandOwners(const OwnerClasses& triangles, const VisibleMap& map, bool apart)
-            : alike(triangles, map) {
+        BandOwners(const OwnerClasses& triangles, const VisibleMap& map, bool apart) : alike(triangles, map) {
             if (apart) each.emplace(OwnerClasses{}, map);
         }
         MapOwners alike;
@@ -220,8 +219,8 @@ class Nsaa {
         dump_.weights(worker.tile, owners.alike.stacks);
         worker.pairs += worker.tile.entries.size();
         blend(
-            worker.tile, offset(), [&](Owner o, glm::dvec2 s) { return shade(owners.alike.stacks.layersOf(o), s); },
-            result_.image);
+            worker.tile, offset(),
+            [&](Owner o, glm::dvec2 s) { return shade(owners.alike.stacks.layersOf(o), s); }, result_.image);
         watch.book("blend", worker.times);
     }
 

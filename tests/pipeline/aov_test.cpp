@@ -99,6 +99,31 @@ TEST(Aov, OwnersAndCoverageOfTwoPlanes) {
     }
 }
 
+// The square lets three quarters of what is behind it through.
+TEST(Aov, ALayerCoversItsShare) {
+    Scene scene = squareBeforeHalfPlane();
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].alpha_mode = AlphaMode::kBlend;
+    scene.materials[1].base_color.a = 0.25;
+    scene.geometry[0].material = 1;
+    const auto id = [](const char* name) { return cryptomatteIdBits(murmurHash3(name)); };
+    for (const char* method : kMethods) {
+        const MethodResult result = render(scene, test::makePerspective(), test::makeFilm(8, 8), method);
+        const Channels channels(result.image);
+        EXPECT_EQ(channels.word("CryptoObject00.red", 2, 4), id("wall")) << method;
+        EXPECT_EQ(channels.at("CryptoObject00.green", 2, 4), 0.75f) << method;
+        EXPECT_EQ(channels.word("CryptoObject00.blue", 2, 4), id("square")) << method;
+        EXPECT_EQ(channels.at("CryptoObject00.alpha", 2, 4), 0.25f) << method;
+        EXPECT_EQ(channels.at("CryptoObject00.green", 5, 3), 0.25f) << method;  // over the background
+        EXPECT_EQ(channels.at("CryptoObject00.alpha", 5, 3), 0.0f) << method;
+        EXPECT_EQ(channels.at("Z", 2, 4), 4.0f) << method;
+        EXPECT_EQ(channels.at("owners", 2, 4), 1.0f) << method;
+    }
+    scene.materials[1].base_color.a = 0.0;  // nothing is there
+    const MethodResult clear = render(scene, test::makePerspective(), test::makeFilm(8, 8), "nsaa");
+    EXPECT_EQ(Channels(clear.image).at("Z", 2, 4), 8.0f);
+}
+
 // z = -2 - x: on the ray to (u, -1) times t it is t = 2 + u t, so t = 2 / (1 - u). Its normal is (1, 0, 1).
 TEST(Aov, DepthOfATiltedPlaneIsAlongTheViewAxis) {
     const float big = 1.5f;
