@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/aov_names.h"
 #include "pipeline/cryptomatte.h"
 #include "pipeline/image_buffer.h"
 #include "pipeline/shade.h"
@@ -18,26 +19,6 @@ namespace edgewise {
 
 struct Progress;
 struct SampledOwners;
-
-/// Point-sampled, of the nearest surface at the pixel's sample and unfiltered:
-///     depth        Z              distance along the view axis, world units; kBackgroundDepth where nothing
-///                                 is
-///     normal       N.X N.Y N.Z    what is shaded with: unit, world space, towards the viewer; 0 where
-///                                 nothing is
-///     index        index          uint32, the triangle's index; 4294967295 where nothing is
-/// See-through layers count as surfaces where they are there at all: the nearest whose alpha is not 0.
-/// Integrated over the filter's support:
-///     owners       owners         how many owners have a weight other than 0, the background among them; a
-///     stack of layers is one cryptomatte  CryptoObject00.red ... CryptoMaterial02.alpha    see cryptomatte.h
-enum class Aov { kDepth, kNormal, kIndex, kOwners, kCryptomatte };
-
-/// In the order of their channels.
-const std::vector<std::pair<std::string, Aov>>& aovNames();
-
-inline constexpr double kBackgroundDepth = 1e10;  // as Blender writes it; a float32 without rounding
-
-/// float32 or uint32 values that these add to each pixel.
-std::size_t aovChannelCount(const std::set<Aov>& wanted);
 
 /// Fills the AOVs of one picture; refers to all its arguments. The fill functions may be called from many
 /// threads for different pixels.

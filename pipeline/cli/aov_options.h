@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/aov.h"
+#include "pipeline/aov_names.h"
 
 namespace edgewise::cli {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "analytic/prefilter.h"
-#include "pipeline/aov.h"
+#include "pipeline/aov_names.h"
 #include "pipeline/film.h"
 #include "pipeline/image_buffer.h"
 #include "pipeline/progress.h"

@@ -76,6 +76,8 @@ class Nsaa {
         if (aov_.pointSamples()) watch_.book("aov", result_.stages);
         dump_.finish();
         result_.plan = plan_.entries;
+        if (in_.options.shading.mode == ShadingMode::kHit)
+            result_.notes.emplace_back("nsaa has no samples that hit: shaded at the closest point");
         fillCounts(band_count);
         return std::move(result_);
     }
@@ -91,16 +93,19 @@ class Nsaa {
         worker.weights.run(map, tiles.segments.ids, owners.classes, box, offset(), worker.tile);
         PixelReport out;
         FixedWeight sum = 0;
-        for (const OwnerWeight& entry : worker.tile.entries) {
+        for (std::size_t e = 0; e < worker.tile.entries.size(); ++e) {
+            const OwnerWeight& entry = worker.tile.entries[e];
             sum += entry.weight;
             reportOwner(owners.stacks.layersOf(entry.owner), entry.weight,
-                        glm::dvec2(x + 0.5, y + 0.5) + offset(), out);
+                        glm::dvec2(x + 0.5, y + 0.5) + offset(), worker.tile.points.of(e), out);
         }
         out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
         return out;
     }
 
   private:
+    using Offsets = std::span<const glm::dvec2>;
+
     glm::dvec2 offset() const { return in_.film.debug_offset_px; }
 
     /// What the owners of a map's weights are.
@@ -120,15 +125,18 @@ class Nsaa {
         std::optional<MapOwners> each;
     };
 
-    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
+    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const {
         const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
         const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
             out.owners.push_back(
                 {layers[k], weight * share, color, {layers.begin(), layers.begin() + k + 1}});
         };
-        out.background += weight * throughLayers(
-                                       layers, [&](Owner o) { return shadeTriangle(o, sample); }, add);
+        const auto shade = [&](Owner o) {
+            return offsets.size() > 1 ? shading_.mean(o, sample, offsets)
+                                      : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0]);
+        };
+        out.background += weight * throughLayers(layers, shade, add);
     }
 
     Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
@@ -136,9 +144,25 @@ class Nsaa {
         return shading_.closest(owner, sample_px);
     }
 
-    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const {
         return composite(
             layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in_.options.background);
+    }
+
+    /// The mean of whole stacks: their layers' opacities belong together.
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+        const auto constant = [&](Owner o) {
+            return o == kBackground || (!plan_.constant.empty() && plan_.constant[o]);
+        };
+        if (offsets.empty() || std::all_of(layers.begin(), layers.end(), constant))
+            return shadeAt(layers, sample_px);
+        Shade sum{glm::dvec3(0.0), 0.0};
+        for (const glm::dvec2& offset : offsets) {
+            const Shade one = shadeAt(layers, sample_px + offset);
+            sum.color += one.color, sum.alpha += one.alpha;
+        }
+        const auto count = static_cast<double>(offsets.size());
+        return {sum.color / count, sum.alpha / count};
     }
 
     /// What stays as long as the picture is made: the image, the scene on the screen, the plan's tables.
@@ -220,7 +244,8 @@ class Nsaa {
         worker.pairs += worker.tile.entries.size();
         blend(
             worker.tile, offset(),
-            [&](Owner o, glm::dvec2 s) { return shade(owners.alike.stacks.layersOf(o), s); }, result_.image);
+            [&](Owner o, glm::dvec2 s, Offsets at) { return shade(owners.alike.stacks.layersOf(o), s, at); },
+            result_.image);
         watch.book("blend", worker.times);
     }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "analytic/first_moments.h"
 #include "pipeline/composite.h"
 #include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
@@ -50,7 +51,12 @@ class PixelFilter {
   public:
     PixelFilter(const MethodInput& in, const Shading& shading, const AovPass& aov,
                 const SampleWeights& weights, int per_side)
-        : in_(in), shading_(shading), aov_(aov), weights_(weights), per_side_(per_side) {}
+        : in_(in),
+          shading_(shading),
+          aov_(aov),
+          weights_(weights),
+          per_side_(per_side),
+          weighted_centroids_(centroidMeasure(in.filter).name == in.filter.name) {}
 
     void shadeSamples(SampleBand& band) const {
         band.shade.resize(band.owner.size());
@@ -156,9 +162,23 @@ class PixelFilter {
         const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
         if (in_.options.shading.mode == ShadingMode::kSamples)
             return over([&](Owner o) { return meanOver(o, seen); });
+        const glm::dvec2 centroid = corner + centroidOf(seen, runs, corner);
+        return over([&](Owner o) { return shading_.closest(o, centroid); });
+    }
+
+    /// From the corner; by the measure that nsaa takes. Samples that weigh nothing: the pixel's own.
+    glm::dvec2 centroidOf(const std::vector<glm::dvec2>& seen, std::span<const OwnerRun> runs,
+                          glm::dvec2 corner) const {
         glm::dvec2 sum(0.0);
-        for (const glm::dvec2& p : seen) sum += p - corner;
-        return over([&](Owner o) { return shading_.closest(o, corner + sum / double(seen.size())); });
+        double total = 0.0;
+        auto p = seen.begin();
+        for (const OwnerRun& run : runs)
+            for (int i = run.begin; i < run.end; ++i, ++p) {
+                const double weight =
+                    weighted_centroids_ ? toDouble(weights_.rows[run.row].of(i, i + 1)) : 1.0;
+                sum += weight * (*p - corner), total += weight;
+            }
+        return total > 0.0 ? sum / total : glm::dvec2(0.5);
     }
 
     /// The mean over N of the seen samples, spread evenly in their order; colours count by their alpha.
@@ -219,6 +239,7 @@ class PixelFilter {
     const AovPass& aov_;
     const SampleWeights& weights_;
     int per_side_;
+    bool weighted_centroids_;
 };
 
 void findRuns(SampleBand& band) {

@@ -118,6 +118,19 @@ TEST(Render, BackgroundFillsWhatNothingCovers) {
     EXPECT_EQ(corner[4], 0.0f);
 }
 
+TEST(Render, EveryMethodTakesEveryShading) {
+    for (const std::string method : {"nsaa", "ssaa:2", "none"})
+        for (const std::string shading : {"closest", "centroid", "samples:3", "hit"}) {
+            const TemporaryFolder folder;
+            const ProgramRun run = runProgram({"render", "torus-20k", "-o", "a.exr", "--size", "16x16",
+                                               "--method", method, "--shading", shading, "--stats", "a.json"},
+                                              folder.path());
+            EXPECT_EQ(run.status, 0) << run.err;
+            const auto notes = nlohmann::json::parse(readFile(folder / "a.json")).at("notes");
+            EXPECT_EQ(notes.size(), method == "nsaa" && shading == "hit" ? 1u : 0u) << method << shading;
+        }
+}
+
 TEST(Render, StatisticsAreJson) {
     const TemporaryFolder folder;
     render(folder, "a.exr", {"--stats", "a.json"});
