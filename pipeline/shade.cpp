@@ -340,6 +340,11 @@ Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     return shadeAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
 }
 
+glm::dvec3 Shading::normal(Owner owner, glm::dvec2 p_px) const {
+    const Surface surface = surfaceOf(owner);
+    return normalAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
+}
+
 glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
     glm::dvec2 best(0.0);
     double best_px2 = std::numeric_limits<double>::infinity();

@@ -56,6 +56,9 @@ class Shading {
     /// The shade of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<Shade> constant(Owner owner) const;
 
+    /// What the lights see at a point that lies on the owner: unit, eye space, towards the viewer.
+    glm::dvec3 normal(Owner owner, glm::dvec2 p_px) const;
+
     /// From the sample to the point where closest() shades.
     glm::dvec2 closestOffset(Owner owner, glm::dvec2 sample_px) const;
 

@@ -123,7 +123,9 @@ MethodResult runExact(const MethodSpec&, const MethodInput& in) {
     MethodResult result;
     Stopwatch watch;
     ScreenPieces pieces;
-    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    if (!in.options.aovs.empty())
+        throw FailureError("--aov", "exact has none; nsaa, ssaa and none have them");
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
     watch.book("project", result.stages);
     checkCancelled(in.progress);

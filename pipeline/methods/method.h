@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analytic/prefilter.h"
+#include "pipeline/aov_names.h"
 #include "pipeline/film.h"
 #include "pipeline/image_buffer.h"
 #include "pipeline/progress.h"
@@ -40,6 +41,7 @@ struct RenderOptions {
     ShadingChoice shading;
     std::uint64_t seed = 0;
     std::set<std::string> no_skip;
+    std::set<Aov> aovs;
     std::optional<std::filesystem::path> dump_dir;
 
     /// --no-skip NAME, or all.

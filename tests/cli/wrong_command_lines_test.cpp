@@ -126,7 +126,12 @@ INSTANTIATE_TEST_SUITE_P(
                               1},
                     WrongCase{{"weights", "torus-20k", "--pixel", "1,1", "--radius", "1e6"}, "--memory", 1},
                     WrongCase{renderWith({"--seed", "-1"}), "--seed"},
-                    WrongCase{renderWith({"--aov", "depth"}), "--aov"}));
+                    WrongCase{renderWith({"--aov", "dept"}), "depth, normal, index, owners, cryptomatte"},
+                    WrongCase{renderWith({"--aov", ""}), "--aov"},
+                    WrongCase{renderWith({"--aov", "Depth"}), "--aov"},
+                    WrongCase{renderWith({"--aov"}), "--aov"},
+                    WrongCase{{"weights", "torus-20k", "--pixel", "1,1", "--aov", "depth"}, "--aov"},
+                    WrongCase{{"render", "torus-20k", "-o", "a.png", "--aov", "depth"}, ".exr"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Input, WrongCommandLine,
