@@ -148,7 +148,9 @@ std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress
     std::vector<Task> tasks;
     for (const StabilityCase* one : chosenCases(options.cases))
         for (const Prefilter& filter : options.filters)
-            for (const double difficulty : one->difficulties) tasks.push_back({one, &filter, difficulty});
+            for (std::size_t i = 0; i < one->difficulties.size();
+                 i += static_cast<std::size_t>(options.every))
+                tasks.push_back({one, &filter, one->difficulties[i]});
     std::vector<StabilityRow> rows(tasks.size());
     progress.stage("stability", tasks.size());
     // CGAL's lazy numbers share nodes between threads without a lock: one thread.

@@ -37,6 +37,7 @@ double promisedBound(std::uint64_t terms);
 struct StabilityOptions {
     std::vector<Prefilter> filters;
     int scenes = 4;                  ///< a difficulty
+    int every = 1;                   ///< of a case's difficulties only each so-manieth is run
     std::vector<std::string> cases;  ///< names; empty: all
 };
 

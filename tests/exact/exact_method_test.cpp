@@ -1,0 +1,76 @@
+// Pictures of the oracle beside those of nsaa.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/error.h"
+#include "pipeline/methods/exact.h"
+#include "pipeline/methods/nsaa.h"
+#include "tests/pipeline/shipped_picture.h"
+
+namespace edgewise {
+namespace {
+
+constexpr int kSidePx = 6;
+
+class ExactMethod : public testing::TestWithParam<scenes::Recipe> {};
+
+TEST_P(ExactMethod, NsaaMakesTheOraclesPicture) {
+    const auto picture = test::shippedPicture(GetParam(), kSidePx);
+    double worst = 0.0;
+    for (const char* name : {"box", "gaussian"}) {
+        const Prefilter filter = makePrefilter(name, {}, {});
+        const MethodResult product = test::renderPicture(picture, filter, test::onBlue()),
+                           truth = test::renderPicture(picture, filter, test::onBlue(), "exact");
+        for (std::size_t i = 0; i < truth.image.rgba.size(); ++i)
+            for (int c = 0; c < 4; ++c) {
+                const double expected = truth.image.rgba[i][c];
+                const double error = std::abs(product.image.rgba[i][c] - expected);
+                EXPECT_LE(error, 3e-7 * std::max(1.0, std::abs(expected))) << name << " pixel " << i;
+                EXPECT_LE(error, 1e-12) << name << " pixel " << i;
+                worst = std::max(worst, error);
+            }
+    }
+    fmt::print("{}: worst difference {:.1e}\n", picture.name, worst);
+}
+
+TEST(ExactMethodLimits, TooManyTrianglesAndPanesAreRefused) {
+    auto picture = test::shippedPicture("torus-20k", 1024);
+    const Prefilter filter = makePrefilter("box", {}, {});
+    EXPECT_THROW(test::renderPicture(picture, filter, {}, "exact"), FailureError);
+    picture = test::shippedPicture("torus-20k", 2);
+    for (Material& material : picture.scene.materials)
+        material.alpha_mode = AlphaMode::kBlend, material.base_color.a = 0.5;
+    EXPECT_THROW(test::renderPicture(picture, filter, {}, "exact"), FailureError);
+}
+
+TEST(ExactMethodLimits, WeightsAreListedBesideTheProducts) {
+    const auto picture = test::shippedPicture("torus-20k", 4);
+    const Prefilter filter = makePrefilter("gaussian", {}, {});
+    Progress progress;
+    const RenderOptions options;
+    const MethodInput input{picture.scene, picture.camera, picture.film, filter, options, progress};
+    const int x = picture.film.crop.x0 + 1, y = picture.film.crop.y0 + 1;
+    const PixelReport report = pixelWeights(input, x, y);
+    std::vector<std::pair<Owner, double>> product;
+    for (const PixelOwner& owner : report.owners) product.emplace_back(owner.index, owner.weight);
+    product.emplace_back(kBackground, report.background);
+    const auto exact = exactWeights(input, x, y, product);
+    ASSERT_FALSE(exact.empty());
+    double sum = 0.0;
+    for (const ExactWeight& w : exact) {
+        sum += w.nearest;
+        if (w.nearest > 0x1p-20) {
+            EXPECT_LT(std::abs(w.ulp_off), 0x1p30) << w.owner;
+            EXPECT_GE(w.digits.size(), 30u) << w.owner;
+        }
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ExactMethod, testing::ValuesIn(scenes::degenerateRecipes()),
+                         [](const auto& one) { return test::nameOf(one.param); });
+
+}  // namespace
+}  // namespace edgewise
