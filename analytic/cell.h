@@ -34,6 +34,7 @@ struct RowPiece {
 
 /// How much work visibility did, and how often its exact parts fired.
 struct VisibilityCounts {
+    std::uint64_t pieces = 0;     ///< of segments, before those of neighbouring cells were joined
     std::uint64_t cells = 0;      ///< leaves that were swept
     std::uint64_t certified = 0;  ///< cells that one sheet covers
     std::uint64_t slabs = 0;

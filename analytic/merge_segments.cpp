@@ -54,6 +54,7 @@ LayerStacks joinStacks(std::span<CellOutput* const> outputs) {
 
 void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map) {
     map.lines.clear(), map.segments.clear();
+    map.lines.reserve(pieces.size()), map.segments.reserve(pieces.size());  // never held twice while growing
     LineRef last{};
     for (std::size_t i = 0; i < pieces.size();) {
         SegmentPiece piece = pieces[i];

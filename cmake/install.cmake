@@ -3,7 +3,11 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edgewise)
 
-foreach(part options analytic scenes pipeline)
+set(parts options analytic scenes pipeline)
+if(EDGEWISE_ORACLE)
+  list(APPEND parts exact)
+endif()
+foreach(part ${parts})
   set_target_properties(edgewise_${part} PROPERTIES EXPORT_NAME ${part})
   install(TARGETS edgewise_${part} EXPORT edgewise_targets)
 endforeach()

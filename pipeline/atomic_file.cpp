@@ -4,55 +4,32 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "pipeline/error.h"
 
 namespace edgewise {
 namespace {
 
-/// The temporary name of the write under way: one at a time, the program writes from one thread.
-std::atomic<const char*> pending_name{nullptr};
+/// The temporary names of writes under way; the program writes from one thread.
+std::array<std::atomic<const char*>, kMaxPendingFiles> pending_names{};
+
+std::size_t freeSlot(const std::filesystem::path& path) {
+    const auto free = std::ranges::find_if(pending_names, [](const auto& name) { return name == nullptr; });
+    if (free == pending_names.end())
+        throw FailureError(path.string(), fmt::format("more than {} files at once", kMaxPendingFiles));
+    return static_cast<std::size_t>(free - pending_names.begin());
+}
 
 [[noreturn]] void failToWrite(const std::filesystem::path& path, int error) {
     throw FailureError(path.string(), fmt::format("cannot be written: {}", std::strerror(error)));
 }
-
-/// A file that is gone unless it is kept.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const std::filesystem::path& target)
-        : target_(target),
-          name_(target.parent_path() / fmt::format(".{}.{}.tmp", target.filename().string(), getpid())) {
-        pending_name = name_.c_str();
-        descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) failToWrite(target_, errno);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        if (descriptor_ >= 0) close(descriptor_);
-        if (!kept_) unlink(name_.c_str());
-        pending_name = nullptr;
-    }
-
-    int descriptor() const { return descriptor_; }
-
-    void keep() {
-        const int status = close(descriptor_);
-        descriptor_ = -1;
-        if (status != 0 || rename(name_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
-        kept_ = true;
-    }
-
-  private:
-    std::filesystem::path target_, name_;
-    int descriptor_ = -1;
-    bool kept_ = false;
-};
 
 void writeAll(int descriptor, std::span<const unsigned char> bytes, const std::filesystem::path& path) {
     while (!bytes.empty()) {
@@ -77,6 +54,35 @@ void writeToDevice(const std::filesystem::path& path, std::span<const unsigned c
 
 }  // namespace
 
+PendingFile::PendingFile(const std::filesystem::path& target)
+    : target_(target),
+      slot_(freeSlot(target)),
+      name_(target.parent_path() /
+            fmt::format(".{}.{}.{}.tmp", target.filename().string(), getpid(), slot_)) {
+    checkOutputPath(target);
+    pending_names[slot_] = name_.c_str();
+    stream_ = std::fopen(name_.c_str(), "w+be");
+    if (stream_ != nullptr) return;
+    const int error = errno;
+    pending_names[slot_] = nullptr;
+    failToWrite(target_, error);
+}
+
+PendingFile::~PendingFile() {
+    if (stream_ != nullptr) std::fclose(stream_);
+    if (!kept_) unlink(name_.c_str());
+    pending_names[slot_] = nullptr;
+}
+
+void PendingFile::keep() {
+    errno = 0;
+    const bool failed = std::ferror(stream_) != 0;
+    if (std::fclose(std::exchange(stream_, nullptr)) != 0 || failed)
+        failToWrite(target_, errno ? errno : EIO);
+    if (std::rename(name_.c_str(), target_.c_str()) != 0) failToWrite(target_, errno);
+    kept_ = true;
+}
+
 void checkOutputPath(const std::filesystem::path& path) {
     std::error_code ignored;
     if (path.filename().empty() || std::filesystem::is_directory(path, ignored))
@@ -90,8 +96,8 @@ void writeAtomically(const std::filesystem::path& path, std::span<const unsigned
     checkOutputPath(path);
     std::error_code ignored;
     if (std::filesystem::is_other(path, ignored)) return writeToDevice(path, bytes);
-    TemporaryFile file(path);
-    writeAll(file.descriptor(), bytes, path);
+    PendingFile file(path);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.stream()) != bytes.size()) failToWrite(path, errno);
     file.keep();
 }
 
@@ -100,7 +106,8 @@ void writeAtomically(const std::filesystem::path& path, std::string_view text) {
 }
 
 void removePendingFile() noexcept {
-    if (const char* name = pending_name) unlink(name);
+    for (const auto& pending : pending_names)
+        if (const char* name = pending) unlink(name);
 }
 
 }  // namespace edgewise

@@ -33,7 +33,7 @@ void blend(const WeightTile& tile, glm::dvec2 offset_px, const ShadeOwner& shade
             ContrastRange range;
             for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e) {
                 const OwnerWeight& entry = tile.entries[e];
-                const Shade seen = shade(entry.owner, sample);
+                const Shade seen = shade(entry.owner, sample, tile.points.of(e));
                 color += toReal(entry.weight) * seen.color;
                 if (seen.alpha == 1.0)
                     covered += entry.weight;

@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "pipeline/aov_image.h"
 #include "pipeline/film.h"
 
 namespace edgewise {
@@ -15,7 +16,8 @@ struct ImageBuffer {
     PixelBox box;
     std::vector<glm::dvec4> rgba;
     std::vector<float>
-        edge;  ///< 1 where the filter's support holds visible owners that differ by more than 1/255
+        edge;      ///< 1 where the filter's support holds visible owners that differ by more than 1/255
+    AovImage aov;  ///< empty but for --aov
 
     ImageBuffer() = default;
     explicit ImageBuffer(const PixelBox& pixels)
@@ -23,6 +25,9 @@ struct ImageBuffer {
           rgba(static_cast<std::size_t>(box.width()) * box.height(), glm::dvec4(0.0)),
           edge(rgba.size(), 0.0f) {}
 
+    std::size_t bytes() const {
+        return rgba.size() * sizeof(glm::dvec4) + edge.size() * sizeof(float) + aov.bytes();
+    }
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y - box.y0) * box.width() + (x - box.x0);
     }

@@ -43,10 +43,15 @@ OwnerClasses classesOf(const std::vector<std::optional<Shade>>& constant, std::s
     return out;
 }
 
+bool isTextured(const Material& m) {
+    return m.base_color_map.present() || m.metallic_roughness_map.present() || m.normal_map.present() ||
+           m.occlusion_map.present() || m.emissive_map.present();
+}
+
 std::string fetchReason(const Scene& scene) {
     std::size_t textured = 0, unlit = 0;
     for (const Material& m : scene.materials) {
-        textured += m.base_color_map.present();
+        textured += isTextured(m);
         unlit += m.unlit;
     }
     return fmt::format("{} of {} materials have a texture, {} are unlit", textured, scene.materials.size(),
@@ -88,6 +93,7 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
     plan.weights.skip_interior =
         add("interior", false, "for supports without segments: the owner there has all the weight");
 
+    plan.weights.shading = options.shading;
     std::size_t merged = 0, classes = 0;
     plan.constant = constantShades(pieces, shading);
     OwnerClasses by_color = classesOf(plan.constant, merged, classes);

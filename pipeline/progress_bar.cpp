@@ -1,10 +1,12 @@
 #include "pipeline/progress_bar.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace edgewise {
 namespace {
@@ -13,7 +15,15 @@ constexpr std::size_t kBarCells = 30;
 constexpr std::chrono::milliseconds kRedrawInterval{100};
 constexpr const char* kWipeLine = "\r\x1b[K";
 
+std::atomic<bool> line_is_drawn{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler asks it
+
 }  // namespace
+
+void wipeProgressLine() noexcept {
+    if (!line_is_drawn.exchange(false)) return;
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kWipeLine, std::strlen(kWipeLine));
+}
 
 std::string progressLine(std::string_view name, std::size_t done, std::size_t total) {
     if (total == 0) return std::string(name);
@@ -27,7 +37,7 @@ ProgressBar::ProgressBar(bool draw, const std::atomic<bool>& interrupted)
     : draw_(draw), interrupted_(interrupted) {}
 
 ProgressBar::~ProgressBar() {
-    if (draw_) std::fputs(kWipeLine, stderr);
+    wipeProgressLine();
 }
 
 void ProgressBar::stage(std::string_view name, std::size_t total) {
@@ -54,6 +64,7 @@ void ProgressBar::redraw() {
     const auto now = std::chrono::steady_clock::now();
     if (!draw_ || now < next_draw_) return;
     next_draw_ = now + kRedrawInterval;
+    line_is_drawn = true;
     std::fputs((kWipeLine + progressLine(name_, done_, total_)).c_str(), stderr);
 }
 

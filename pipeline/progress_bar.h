@@ -36,6 +36,9 @@ class ProgressBar : public Progress {
     std::chrono::steady_clock::time_point next_draw_{};
 };
 
+/// Wipes the line of the bar that is drawn, if one is. A signal handler may call it.
+void wipeProgressLine() noexcept;
+
 /// The bar's text: "visibility [#####.....]  50 %", or the name alone while the total is unknown (0).
 std::string progressLine(std::string_view name, std::size_t done, std::size_t total);
 

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "pipeline/clip.h"
+#include "pipeline/error.h"
 #include "pipeline/eye_plane.h"
 #include "pipeline/grid_orientation.h"
 #include "pipeline/opacity.h"
@@ -67,13 +68,14 @@ constexpr std::uint32_t kFirstMade = 0x80000000u;
 
 class Projector {
   public:
-    Projector(const Scene& scene, const ResolvedCamera& camera, const Film& film)
+    Projector(const Scene& scene, const ResolvedCamera& camera, const Film& film, Progress& progress)
         : scene_(scene),
+          progress_(begun(progress, scene)),
           map_(makeScreenMap(camera, film)),
           volume_(camera.camera, map_),
-          groups_(findCoplanar(scene)),
-          planes_(makeEyePlanes(scene, groups_, camera.camera_from_world)),
-          vertices_(weldVertices(scene, camera.camera_from_world)),
+          groups_(passed(findCoplanar(scene))),
+          planes_(passed(makeEyePlanes(scene, groups_, camera.camera_from_world))),
+          vertices_(passed(weldVertices(scene, camera.camera_from_world))),
           opacity_(opacityOf(scene)) {
         placeVertices(volume_, map_, vertices_);
     }
@@ -82,9 +84,11 @@ class Projector {
         ScreenScene screen;
         makeDepth(screen, pieces);
         pieces.back_facing.assign(scene_.triangle_count, 0);
-        std::vector<Run> runs((scene_.triangle_count + kRunLength - 1) / kRunLength);
-        tbb::parallel_for(std::size_t(0), runs.size(),
-                          [&](std::size_t i) { projectRun(i, runs[i], pieces); });
+        std::vector<Run> runs(runCount(scene_));
+        tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+            projectRun(i, runs[i], pieces);
+            advance(1);
+        });
         join(runs, screen, pieces);
         markSeeThrough(screen);
         return screen;
@@ -92,6 +96,27 @@ class Projector {
 
   private:
     static constexpr std::size_t kRunLength = 4096;
+    static constexpr std::size_t kParts = 4;  // of about the same length: planes twice, vertices, triangles
+
+    static std::size_t runCount(const Scene& scene) {
+        return (scene.triangle_count + kRunLength - 1) / kRunLength;
+    }
+
+    static Progress& begun(Progress& progress, const Scene& scene) {
+        progress.stage("project", kParts * runCount(scene));
+        return progress;
+    }
+
+    void advance(std::size_t runs) const {
+        if (progress_.cancelled()) throw Interrupted();
+        progress_.advance(runs);
+    }
+
+    template <class Part>
+    Part passed(Part part) const {
+        advance(runCount(scene_));
+        return part;
+    }
 
     void makeDepth(ScreenScene& screen, ScreenPieces& pieces) {
         screen.anchor_px = map_.anchorPx();
@@ -223,6 +248,7 @@ class Projector {
     }
 
     const Scene& scene_;
+    Progress& progress_;
     ScreenMap map_;
     ClipVolume volume_;
     CoplanarGroups groups_;
@@ -234,10 +260,16 @@ class Projector {
 
 }  // namespace
 
+ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film, ScreenPieces& pieces,
+                    Progress& progress) {
+    pieces = {};
+    return Projector(scene, camera, film, progress).run(pieces);
+}
+
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film,
                     ScreenPieces& pieces) {
-    pieces = {};
-    return Projector(scene, camera, film).run(pieces);
+    Progress silent;
+    return project(scene, camera, film, pieces, silent);
 }
 
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film) {

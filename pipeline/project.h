@@ -10,6 +10,7 @@
 
 #include "analytic/screen_triangle.h"
 #include "pipeline/film.h"
+#include "pipeline/progress.h"
 #include "pipeline/scene.h"
 
 namespace edgewise {
@@ -42,7 +43,10 @@ struct ScreenPieces {
     }
 };
 
-/// Deterministic whatever the threads. Throws FailureError for a film that exceeds half the guard band.
+/// Deterministic whatever the threads. Throws FailureError for a film that exceeds half the guard band,
+/// Interrupted when cancelled.
+ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film, ScreenPieces& pieces,
+                    Progress& progress);
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film, ScreenPieces& pieces);
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film);
 

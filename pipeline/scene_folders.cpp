@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <stdexcept>
+
+#include "pipeline/atomic_file.h"
 
 namespace edgewise {
 namespace {
@@ -82,20 +84,12 @@ bool writeWhole(const fs::path& path, const std::string& bytes) {
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error) return false;
-    std::string temporary = path.string() + ".XXXXXX";
-    const int descriptor = mkstemp(temporary.data());
-    if (descriptor < 0) return false;
-    ::close(descriptor);
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file << bytes;
-    file.close();
-    const auto readable =
-        fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read;
-    if (file) fs::permissions(temporary, readable, error);
-    if (file && !error) fs::rename(temporary, path, error);
-    const bool done = file && !error;
-    if (!done) fs::remove(temporary, error);
-    return done;
+    try {
+        writeAtomically(path, bytes);
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+    return true;
 }
 
 }  // namespace edgewise

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace edgewise {
 
@@ -20,6 +21,7 @@ struct Shading::Surface {
 struct Shading::Location {
     glm::dvec3 barycentric{0.0};
     glm::dvec3 d_dx{0.0}, d_dy{0.0};  ///< per pixel
+    glm::dvec3 p_eye{0.0};
 };
 
 namespace {
@@ -59,6 +61,15 @@ bool sameAtCorners(const std::vector<Vector>& values, const std::array<std::uint
     return values[vertex[0]] == values[vertex[1]] && values[vertex[0]] == values[vertex[2]];
 }
 
+glm::dvec2 mapPoint(const TextureUse& use, glm::dvec2 uv) {
+    return glm::dvec2(use.uv_from_vertex * glm::dvec3(uv, 1.0));
+}
+
+/// A derivative: the shift does not count.
+glm::dvec2 mapDirection(const TextureUse& use, glm::dvec2 duv) {
+    return glm::dvec2(use.uv_from_vertex * glm::dvec3(duv, 0.0));
+}
+
 std::optional<glm::dvec3> unit(const glm::dvec3& v) {
     const double size = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
     if (size == 0.0) return std::nullopt;
@@ -68,13 +79,6 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
 
 }  // namespace
 
-double rigLight(const glm::dvec3& normal_eye) {
-    double light = kRigAmbient;
-    for (const RigLight& lamp : {kRigKey, kRigFill})
-        light += std::max(0.0, glm::dot(normal_eye, lamp.towards)) * lamp.intensity;
-    return light;
-}
-
 Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film,
                  const ScreenScene& screen, const ScreenPieces& pieces)
     : scene_(scene),
@@ -82,16 +86,26 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
       map_(makeScreenMap(camera, film)),
       screen_(screen),
       pieces_(pieces),
-      pyramids_(scene.images.size()) {
-    std::vector<std::uint32_t> used;
-    for (const Material& material : scene.materials)
-        if (material.base_color_map.present())
-            used.push_back(scene.textures[material.base_color_map.texture].image);
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::erase(used, kNone);
-    tbb::parallel_for(std::size_t(0), used.size(),
-                      [&](std::size_t i) { pyramids_[used[i]].emplace(scene.images[used[i]]); });
+      lighting_(scene, camera),
+      pyramids_(scene.images.size()),
+      normal_pyramids_(scene.images.size()) {
+    std::set<std::pair<TexelKind, std::uint32_t>> used;
+    const auto use = [&](const TextureUse& map, TexelKind kind) {
+        if (map.present() && scene.textures[map.texture].image != kNone)
+            used.emplace(kind, scene.textures[map.texture].image);
+    };
+    for (const Material& m : scene.materials) {
+        use(m.base_color_map, TexelKind::kValue);
+        if (m.unlit) continue;
+        for (const TextureUse* map : {&m.metallic_roughness_map, &m.occlusion_map, &m.emissive_map})
+            use(*map, TexelKind::kValue);
+        use(m.normal_map, TexelKind::kNormal);
+    }
+    const std::vector<std::pair<TexelKind, std::uint32_t>> jobs(used.begin(), used.end());
+    tbb::parallel_for(std::size_t(0), jobs.size(), [&](std::size_t i) {
+        const auto [kind, image] = jobs[i];
+        (kind == TexelKind::kNormal ? normal_pyramids_ : pyramids_)[image].emplace(scene.images[image], kind);
+    });
 }
 
 Shading::Surface Shading::surfaceOf(Owner owner) const {
@@ -106,13 +120,13 @@ Shading::Surface Shading::surfaceOf(Owner owner) const {
 /// c'), whether or not the corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine
 /// in (u, v).
 Shading::Location Shading::locate(const Surface& surface, glm::dvec2 uv) const {
+    std::array<glm::dvec3, 3> corner;
     std::array<glm::dvec2, 3> moved;
     std::array<double, 3> slope;  // d a' / d(u, v), times the identity
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 p(camera_from_world_ *
-                           glm::dvec4(surface.geometry->position_world[surface.vertex[k]], 1.0));
-        slope[k] = map_.perspective ? p.z : -1.0;
-        moved[k] = glm::dvec2(p) + slope[k] * uv;
+        corner[k] = cornerEye(surface, k);
+        slope[k] = map_.perspective ? corner[k].z : -1.0;
+        moved[k] = glm::dvec2(corner[k]) + slope[k] * uv;
     }
     glm::dvec3 weight, d_du, d_dv;
     for (int k = 0; k < 3; ++k) {
@@ -122,11 +136,21 @@ Shading::Location Shading::locate(const Surface& surface, glm::dvec2 uv) const {
         d_dv[k] = moved[i].x * slope[j] - slope[i] * moved[j].x;
     }
     const double sum = weight.x + weight.y + weight.z;
-    if (sum == 0.0) return {glm::dvec3(1.0 / 3.0), {}, {}};
+    const auto place = [&](const glm::dvec3& w) {
+        return corner[0] * w.x + corner[1] * w.y + corner[2] * w.z;
+    };
+    const glm::dvec3 middle(1.0 / 3.0);
+    if (sum == 0.0) return {middle, {}, {}, place(middle)};
     auto derivative = [&](const glm::dvec3& d) {
         return (d - (weight / sum) * (d.x + d.y + d.z)) / (sum * map_.scale_px);
     };
-    return {clampToTriangle(weight / sum), derivative(d_du), -derivative(d_dv)};
+    const glm::dvec3 barycentric = clampToTriangle(weight / sum);
+    return {barycentric, derivative(d_du), -derivative(d_dv), place(barycentric)};
+}
+
+glm::dvec3 Shading::cornerEye(const Surface& surface, int corner) const {
+    const glm::dvec3& p_world = surface.geometry->position_world[surface.vertex[corner]];
+    return glm::dvec3(camera_from_world_ * glm::dvec4(p_world, 1.0));
 }
 
 /// Towards the viewer on either side, and the same for all triangles of a plane.
@@ -141,27 +165,71 @@ glm::dvec3 Shading::cornerNormal(const Surface& surface, int corner) const {
     return surface.back_facing ? -*normal : *normal;
 }
 
-glm::dvec3 Shading::normalAt(const Surface& surface, const glm::dvec3& w) const {
+glm::dvec3 Shading::vertexNormalAt(const Surface& surface, const glm::dvec3& w) const {
     if (surface.geometry->normal_world.empty()) return flatNormal(surface);
     const auto normal = unit(cornerNormal(surface, 0) * w.x + cornerNormal(surface, 1) * w.y +
                              cornerNormal(surface, 2) * w.z);
     return normal.value_or(flatNormal(surface));
 }
 
-const MipPyramid* Shading::pyramidOf(const Surface& surface) const {
-    const Material& material = *surface.material;
-    if (!material.base_color_map.present() || surface.geometry->uv[material.base_color_map.uv].empty())
-        return nullptr;
-    const std::uint32_t image = scene_.textures[material.base_color_map.texture].image;
-    return image == kNone ? nullptr : &*pyramids_[image];
+/// Of the front, with the bitangent's sign; none where u and v do not span the triangle.
+std::optional<glm::dvec4> Shading::tangentAt(const Surface& surface, const Location& at,
+                                             const glm::dvec3& normal) const {
+    const Geometry& geometry = *surface.geometry;
+    const auto orthogonal = [&](const glm::dvec3& t) { return unit(t - normal * glm::dot(normal, t)); };
+    if (!geometry.tangent_world.empty()) {
+        const glm::dvec4 world = interpolate(geometry.tangent_world, surface.vertex, at.barycentric);
+        const auto tangent = orthogonal(glm::dmat3(camera_from_world_) * glm::dvec3(world));
+        const double sign = geometry.tangent_world[surface.vertex[0]].w < 0.0 ? -1.0 : 1.0;
+        if (tangent) return glm::dvec4(*tangent, sign);
+    }
+    std::array<glm::dvec3, 3> p;
+    std::array<glm::dvec2, 3> uv;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = cornerEye(surface, k);
+        uv[k] = mapPoint(surface.material->normal_map,
+                         geometry.uv[surface.material->normal_map.uv][surface.vertex[k]]);
+    }
+    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+    const double area = cross2(a, b) < 0.0 ? -1.0 : (cross2(a, b) > 0.0 ? 1.0 : 0.0);
+    const glm::dvec3 dp_du = area * ((p[1] - p[0]) * b.y - (p[2] - p[0]) * a.y),
+                     dp_dv = area * ((p[2] - p[0]) * a.x - (p[1] - p[0]) * b.x);
+    const auto tangent = orthogonal(dp_du);
+    if (!tangent) return std::nullopt;
+    return glm::dvec4(*tangent, glm::dot(glm::cross(normal, *tangent), dp_dv) > 0.0 ? -1.0 : 1.0);
 }
 
-glm::dvec4 Shading::textureAt(const Surface& surface, const Location& at) const {
-    const auto& uv = surface.geometry->uv[surface.material->base_color_map.uv];
-    const TextureFootprint footprint{interpolate(uv, surface.vertex, at.d_dx),
-                                     interpolate(uv, surface.vertex, at.d_dy)};
-    return sampleTexture(scene_.textures[surface.material->base_color_map.texture], *pyramidOf(surface),
-                         interpolate(uv, surface.vertex, at.barycentric), footprint);
+glm::dvec3 Shading::normalAt(const Surface& surface, const Location& at) const {
+    const glm::dvec3 seen = vertexNormalAt(surface, at.barycentric);
+    const auto texel = texelAt(surface, at, surface.material->normal_map, TexelKind::kNormal);
+    if (!texel) return seen;
+    const double side = surface.back_facing ? -1.0 : 1.0;
+    const glm::dvec3 normal = side * seen;
+    const auto tangent = tangentAt(surface, at, normal);
+    if (!tangent) return seen;
+    const double scale = surface.material->normal_scale;
+    const glm::dvec3 map = (2.0 * glm::dvec3(*texel) - 1.0) * glm::dvec3(scale, scale, 1.0);
+    const glm::dvec3 t(*tangent), b = glm::cross(normal, t) * tangent->w;
+    const auto bumped = unit(t * map.x + b * map.y + normal * map.z);
+    return bumped ? side * *bumped : seen;
+}
+
+const MipPyramid* Shading::pyramidOf(const Surface& surface, const TextureUse& use, TexelKind kind) const {
+    if (!use.present() || surface.geometry->uv[use.uv].empty()) return nullptr;
+    const std::uint32_t image = scene_.textures[use.texture].image;
+    if (image == kNone) return nullptr;
+    return &*(kind == TexelKind::kNormal ? normal_pyramids_ : pyramids_)[image];
+}
+
+std::optional<glm::dvec4> Shading::texelAt(const Surface& surface, const Location& at, const TextureUse& use,
+                                           TexelKind kind) const {
+    const MipPyramid* pyramid = pyramidOf(surface, use, kind);
+    if (!pyramid) return std::nullopt;
+    const auto& uv = surface.geometry->uv[use.uv];
+    const TextureFootprint footprint{mapDirection(use, interpolate(uv, surface.vertex, at.d_dx)),
+                                     mapDirection(use, interpolate(uv, surface.vertex, at.d_dy))};
+    return sampleTexture(scene_.textures[use.texture], *pyramid,
+                         mapPoint(use, interpolate(uv, surface.vertex, at.barycentric)), footprint);
 }
 
 /// Opaque materials ignore alpha; a mask is there or not.
@@ -176,51 +244,105 @@ double Shading::alphaOf(const Surface& surface, double base_alpha) const {
     }
 }
 
-std::optional<glm::dvec4> Shading::constantBase(const Surface& surface) const {
-    const Geometry& geometry = *surface.geometry;
+glm::dvec4 Shading::baseAt(const Surface& surface, const Location& at) const {
     glm::dvec4 base = surface.material->base_color;
-    const bool opaque = surface.material->alpha_mode == AlphaMode::kOpaque;
-    if (glm::dvec3(base) == glm::dvec3(0.0) && (opaque || base.a == 0.0)) return base;
-    if (const MipPyramid* pyramid = pyramidOf(surface)) {
-        if (!pyramid->uniform()) return std::nullopt;
-        base *= *pyramid->uniform();
+    if (const auto texel = texelAt(surface, at, surface.material->base_color_map)) base *= *texel;
+    if (!surface.geometry->color.empty())
+        base *= interpolate(surface.geometry->color, surface.vertex, at.barycentric);
+    return base;
+}
+
+Reflectance Shading::reflectanceAt(const Surface& surface, const Location& at, const glm::dvec3& base) const {
+    const Material& material = *surface.material;
+    const glm::dvec4 texel = texelAt(surface, at, material.metallic_roughness_map).value_or(glm::dvec4(1.0));
+    return {base, std::clamp(material.metallic * texel.b, 0.0, 1.0),
+            std::clamp(material.roughness * texel.g, 0.0, 1.0)};
+}
+
+glm::dvec3 Shading::emissiveAt(const Surface& surface, const Location& at) const {
+    const Material& material = *surface.material;
+    if (material.emissive == glm::dvec3(0.0)) return material.emissive;
+    const auto texel = texelAt(surface, at, material.emissive_map);
+    return texel ? material.emissive * glm::dvec3(*texel) : material.emissive;
+}
+
+double Shading::ambientAt(const Surface& surface, const Location& at) const {
+    if (!lighting_.isRig()) return 0.0;
+    const auto texel = texelAt(surface, at, surface.material->occlusion_map);
+    return texel ? kRigAmbient * (1.0 + surface.material->occlusion_strength * (texel->r - 1.0))
+                 : kRigAmbient;
+}
+
+glm::dvec3 Shading::litColor(const Surface& surface, const Location& at, const glm::dvec3& base) const {
+    const Reflectance reflectance = reflectanceAt(surface, at, base);
+    const glm::dvec3 n = normalAt(surface, at), v = lighting_.view(at.p_eye);
+    glm::dvec3 color = base * ambientAt(surface, at) + emissiveAt(surface, at);
+    for (std::size_t i = 0; i < lighting_.count(); ++i) {
+        const Arrival light = lighting_.arrival(i, at.p_eye);
+        const double cosine = glm::dot(n, light.towards);
+        if (cosine > 0.0) color += brdf(reflectance, n, v, light.towards) * (cosine * light.illuminance);
     }
-    if (geometry.color.empty()) return base;
-    if (!sameAtCorners(geometry.color, surface.vertex)) return std::nullopt;
-    return base * geometry.color[surface.vertex[0]];
+    return color;
+}
+
+Shade Shading::shadeAt(const Surface& surface, const Location& at) const {
+    const glm::dvec4 base = baseAt(surface, at);
+    const glm::dvec3 color(base);
+    return {surface.material->unlit ? color : litColor(surface, at, color), alphaOf(surface, base.a)};
+}
+
+bool Shading::mapVaries(const Surface& surface, const TextureUse& use, TexelKind kind) const {
+    const MipPyramid* pyramid = pyramidOf(surface, use, kind);
+    return pyramid && !pyramid->uniform();
+}
+
+bool Shading::baseVaries(const Surface& surface) const {
+    const Material& material = *surface.material;
+    const bool opaque = material.alpha_mode == AlphaMode::kOpaque;
+    if (glm::dvec3(material.base_color) == glm::dvec3(0.0) && (opaque || material.base_color.a == 0.0))
+        return false;
+    const auto& color = surface.geometry->color;
+    return mapVaries(surface, material.base_color_map) ||
+           (!color.empty() && !sameAtCorners(color, surface.vertex));
+}
+
+bool Shading::normalVaries(const Surface& surface) const {
+    const Geometry& geometry = *surface.geometry;
+    const TextureUse& map = surface.material->normal_map;
+    if (!geometry.normal_world.empty() && !sameAtCorners(geometry.normal_world, surface.vertex)) return true;
+    if (!pyramidOf(surface, map, TexelKind::kNormal)) return false;
+    return mapVaries(surface, map, TexelKind::kNormal) ||
+           (!geometry.tangent_world.empty() && !sameAtCorners(geometry.tangent_world, surface.vertex));
+}
+
+bool Shading::varies(const Surface& surface) const {
+    const Material& material = *surface.material;
+    if (baseVaries(surface)) return true;
+    if (material.unlit) return false;
+    return !lighting_.isUniform() || normalVaries(surface) ||
+           mapVaries(surface, material.metallic_roughness_map) ||
+           (lighting_.isRig() && mapVaries(surface, material.occlusion_map)) ||
+           (material.emissive != glm::dvec3(0.0) && mapVaries(surface, material.emissive_map));
 }
 
 std::optional<Shade> Shading::constant(const Surface& surface) const {
-    const auto base = constantBase(surface);
-    if (!base) return std::nullopt;
-    const glm::dvec3 color(*base);
-    const double alpha = alphaOf(surface, base->a);
-    if (surface.material->unlit || color == glm::dvec3(0.0)) return Shade{color, alpha};
-    const auto& normals = surface.geometry->normal_world;
-    if (normals.empty()) return Shade{color * rigLight(flatNormal(surface)), alpha};
-    if (!sameAtCorners(normals, surface.vertex)) return std::nullopt;
-    return Shade{color * rigLight(cornerNormal(surface, 0)), alpha};
+    if (varies(surface)) return std::nullopt;
+    return shadeAt(surface, {{1.0, 0.0, 0.0}, {}, {}, glm::dvec3(0.0)});
 }
 
 std::optional<Shade> Shading::constant(Owner owner) const {
     return constant(surfaceOf(owner));
 }
 
-Shade Shading::shadeAt(const Surface& surface, glm::dvec2 image_plane) const {
-    const Location at = locate(surface, image_plane);
-    glm::dvec4 base = surface.material->base_color;
-    if (pyramidOf(surface)) base *= textureAt(surface, at);
-    if (!surface.geometry->color.empty())
-        base *= interpolate(surface.geometry->color, surface.vertex, at.barycentric);
-    glm::dvec3 color(base);
-    if (!surface.material->unlit) color *= rigLight(normalAt(surface, at.barycentric));
-    return {color, alphaOf(surface, base.a)};
-}
-
 Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     const Surface surface = surfaceOf(owner);
     if (const auto shade = constant(surface)) return *shade;
-    return shadeAt(surface, map_.toImagePlane(p_px, glm::dvec2(0.0)));
+    return shadeAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
+}
+
+glm::dvec3 Shading::normal(Owner owner, glm::dvec2 p_px) const {
+    const Surface surface = surfaceOf(owner);
+    return normalAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
 }
 
 glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
@@ -241,7 +363,20 @@ glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
 Shade Shading::closest(Owner owner, glm::dvec2 sample_px) const {
     const Surface surface = surfaceOf(owner);
     if (const auto shade = constant(surface)) return *shade;
-    return shadeAt(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px)));
+    return shadeAt(surface, locate(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px))));
+}
+
+Shade Shading::mean(Owner owner, glm::dvec2 sample_px, std::span<const glm::dvec2> offsets_px) const {
+    if (offsets_px.empty()) return closest(owner, sample_px);
+    if (const auto shade = constant(owner)) return *shade;
+    glm::dvec3 color(0.0), opaque(0.0);
+    double alpha = 0.0;
+    for (const glm::dvec2& offset : offsets_px) {
+        const Shade shade = closest(owner, sample_px + offset);
+        color += shade.color, opaque += shade.alpha * shade.color, alpha += shade.alpha;
+    }
+    const auto count = static_cast<double>(offsets_px.size());
+    return {alpha > 0.0 ? opaque / alpha : color / count, alpha / count};
 }
 
 }  // namespace edgewise

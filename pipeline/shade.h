@@ -3,24 +3,16 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "pipeline/brdf.h"
+#include "pipeline/lighting.h"
 #include "pipeline/project.h"
 #include "pipeline/screen_map.h"
 #include "pipeline/texture.h"
 
 namespace edgewise {
-
-/// The default rig for lit materials, fixed to the camera (x right, y up, z towards the viewer):
-///     colour = base colour (ambient + sum over lights of max(0, n . towards) intensity)
-/// A white surface that faces the key light gets 0.15 + 0.8 + 0.2 * 12/49 = 0.999; none gets more than 1.03.
-struct RigLight {
-    glm::dvec3 towards;  ///< unit, from the surface to the light
-    double intensity;
-};
-inline constexpr double kRigAmbient = 0.15;
-inline constexpr RigLight kRigKey{{2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, 0.8};
-inline constexpr RigLight kRigFill{{-6.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0}, 0.2};
 
 /// What a surface sends to the eye where it is shaded.
 struct Shade {
@@ -31,6 +23,21 @@ struct Shade {
 
 /// Shades owners of one projected scene; refers to all its arguments. Safe to use from many threads.
 /// All methods want an owner that has pieces.
+///
+///     lit      color = sum over lights of brdf(n, v, l) (n . l)+ illuminance + emissive            (brdf.h)
+///              and, under the default rig, + base color * kRigAmbient * occlusion
+///     unlit    color = base color
+///
+/// The ambient term is what a white room sends back from a surface that loses nothing: a dielectric's diffuse
+/// and mirrored light sum up to about its base color, and a metal's f0 is its base color. So metals are not
+/// black without an environment. Occlusion dims this term alone.
+///
+/// Normals: the file's, interpolated and normalised; else the triangle's. Seen from behind they are turned
+/// round after the normal map, which turns bumps into dents as it should. A normal map's (x, y, z) is
+/// 2 texel - 1, x and y times the normal scale; x points along the tangent, y along
+/// cross(normal, tangent) * sign, up in the picture. Tangents: the file's TANGENT; else the derivative of the
+/// position by the map's u on the triangle, made orthogonal to the normal, and the sign such that y runs
+/// against v. Where u and v do not span the triangle the map is left out.
 class Shading {
   public:
     Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
@@ -42,8 +49,15 @@ class Shading {
     /// At a point that lies on the owner.
     Shade atPoint(Owner owner, glm::dvec2 p_px) const;
 
+    /// The mean over the owner's points nearest to sample + offset; without offsets closest(). Where opacity
+    /// varies the mean colour is that of what is there: weighted by it.
+    Shade mean(Owner owner, glm::dvec2 sample_px, std::span<const glm::dvec2> offsets_px) const;
+
     /// The shade of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<Shade> constant(Owner owner) const;
+
+    /// What the lights see at a point that lies on the owner: unit, eye space, towards the viewer.
+    glm::dvec3 normal(Owner owner, glm::dvec2 p_px) const;
 
     /// From the sample to the point where closest() shades.
     glm::dvec2 closestOffset(Owner owner, glm::dvec2 sample_px) const;
@@ -53,13 +67,27 @@ class Shading {
     struct Location;
     Surface surfaceOf(Owner owner) const;
     Location locate(const Surface& surface, glm::dvec2 image_plane) const;
-    Shade shadeAt(const Surface& surface, glm::dvec2 image_plane) const;
+    glm::dvec3 cornerEye(const Surface& surface, int corner) const;
     glm::dvec3 flatNormal(const Surface& surface) const;
     glm::dvec3 cornerNormal(const Surface& surface, int corner) const;
-    glm::dvec3 normalAt(const Surface& surface, const glm::dvec3& barycentric) const;
-    glm::dvec4 textureAt(const Surface& surface, const Location& at) const;
-    const MipPyramid* pyramidOf(const Surface& surface) const;
-    std::optional<glm::dvec4> constantBase(const Surface& surface) const;
+    glm::dvec3 vertexNormalAt(const Surface& surface, const glm::dvec3& barycentric) const;
+    std::optional<glm::dvec4> tangentAt(const Surface& surface, const Location& at,
+                                        const glm::dvec3& normal) const;
+    glm::dvec3 normalAt(const Surface& surface, const Location& at) const;
+    const MipPyramid* pyramidOf(const Surface& surface, const TextureUse& use,
+                                TexelKind kind = TexelKind::kValue) const;
+    std::optional<glm::dvec4> texelAt(const Surface& surface, const Location& at, const TextureUse& use,
+                                      TexelKind kind = TexelKind::kValue) const;
+    glm::dvec4 baseAt(const Surface& surface, const Location& at) const;
+    Reflectance reflectanceAt(const Surface& surface, const Location& at, const glm::dvec3& base) const;
+    glm::dvec3 emissiveAt(const Surface& surface, const Location& at) const;
+    double ambientAt(const Surface& surface, const Location& at) const;
+    glm::dvec3 litColor(const Surface& surface, const Location& at, const glm::dvec3& base) const;
+    Shade shadeAt(const Surface& surface, const Location& at) const;
+    bool mapVaries(const Surface& surface, const TextureUse& use, TexelKind kind = TexelKind::kValue) const;
+    bool baseVaries(const Surface& surface) const;
+    bool normalVaries(const Surface& surface) const;
+    bool varies(const Surface& surface) const;
     std::optional<Shade> constant(const Surface& surface) const;
     double alphaOf(const Surface& surface, double base_alpha) const;
 
@@ -68,10 +96,9 @@ class Shading {
     ScreenMap map_;
     const ScreenScene& screen_;
     const ScreenPieces& pieces_;
-    std::vector<std::optional<MipPyramid>> pyramids_;  ///< by image; those that a material uses
+    Lighting lighting_;
+    using Pyramids = std::vector<std::optional<MipPyramid>>;
+    Pyramids pyramids_, normal_pyramids_;  ///< by image; those that a material uses
 };
-
-/// What the rig sends back from a white surface with this unit normal (eye space).
-double rigLight(const glm::dvec3& normal_eye);
 
 }  // namespace edgewise

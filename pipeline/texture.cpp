@@ -50,6 +50,12 @@ Image halve(const Image& fine) {
     return coarse;
 }
 
+void normalise(glm::vec4& texel) {
+    const glm::dvec3 normal = 2.0 * glm::dvec3(texel) - 1.0;
+    const double length = std::sqrt(glm::dot(normal, normal));
+    if (length > 0.0) texel = glm::vec4(glm::vec3(0.5 * (normal / length) + 0.5), texel.a);
+}
+
 /// One period of the wrapped coordinate: [0, 1) repeated, [0, 2) mirrored, clamped a texel or more outside
 /// [0, 1].
 double reduce(double u, Wrap wrap) {
@@ -100,15 +106,18 @@ double levelOf(const Image& image, const TextureFootprint& footprint) {
 
 }  // namespace
 
-MipPyramid::MipPyramid(const Image& image) : base_(&image) {
+MipPyramid::MipPyramid(const Image& image, TexelKind kind) : base_(&image) {
     const auto& texels = image.texels;
     const auto differs = [&](const glm::vec4& t) { return t != texels.front(); };
     if (std::none_of(texels.begin(), texels.end(), differs)) {
         uniform_ = glm::dvec4(texels.front());
         return;
     }
-    while (level(levels() - 1).width > 1 || level(levels() - 1).height > 1)
+    while (level(levels() - 1).width > 1 || level(levels() - 1).height > 1) {
         levels_.push_back(halve(level(levels() - 1)));
+        if (kind == TexelKind::kNormal)
+            for (glm::vec4& texel : levels_.back().texels) normalise(texel);
+    }
 }
 
 glm::dvec4 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,

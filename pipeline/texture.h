@@ -9,12 +9,15 @@
 
 namespace edgewise {
 
+/// What texels hold. A normal's three coordinates lie at 2 texel - 1.
+enum class TexelKind { kValue, kNormal };
+
 /// Box-filtered levels of an image of any size: each level halves both sides, rounded down, and a texel of it
 /// is the exact area mean of the texels above, weighted where an odd side does not divide. Held as float,
-/// computed in double.
+/// computed in double. The means of normals are brought back to length 1 (but a mean of 0 stays).
 class MipPyramid {
   public:
-    explicit MipPyramid(const Image& image);
+    explicit MipPyramid(const Image& image, TexelKind kind = TexelKind::kValue);
 
     int levels() const { return static_cast<int>(levels_.size()) + 1; }
     const Image& level(int i) const { return i == 0 ? *base_ : levels_[i - 1]; }
@@ -28,7 +31,8 @@ class MipPyramid {
     std::optional<glm::dvec4> uniform_;
 };
 
-/// How far a pixel reaches in texture space: the derivatives of (u, v) along the screen's axes.
+/// How far a pixel reaches in texture space: the derivatives of (u, v), KHR_texture_transform applied, along
+/// the screen's axes.
 struct TextureFootprint {
     glm::dvec2 duv_dx{0.0}, duv_dy{0.0};
 };

@@ -67,6 +67,8 @@ VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLi
     map.stacks = joinStacks(outputs);
     {
         std::vector<SegmentPiece> pieces = concatenate(workers, &CellOutput::segments);
+        counts.pieces += pieces.size();
+        if (progress.cancelled()) throw Interrupted();
         tbb::parallel_sort(pieces.begin(), pieces.end(), pieceBefore);
         mergeSorted(scene, pieces, map);
     }

@@ -120,7 +120,7 @@ WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec
 }
 
 WeightWorker::WeightWorker(const Prefilter& filter, const WeightOptions& options)
-    : radius_(filter.radius), options_(options), weights_(filter) {}
+    : radius_(filter.radius), options_(options), weights_(filter), points_(filter, options.shading) {}
 
 void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
                               const OwnerClasses& classes, double y) {
@@ -137,27 +137,37 @@ void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32
     }
 }
 
-void WeightWorker::runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base,
-                            WeightTile& out) {
+void WeightWorker::beginGroup(glm::dvec2 first, int count) {
+    weights_.begin(first, count);
+    if (points_.active()) points_.begin(first, count);
+}
+
+void WeightWorker::runGroup(const VisibleMap& map, const OwnerClasses& classes, glm::dvec2 first, int row,
+                            int count, const Owner* base, WeightTile& out) {
     bool begun = false;
     for (const Span& span : row_) {
         if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
-        if (!begun) weights_.begin(first, count), begun = true;
+        if (!begun) beginGroup(first, count), begun = true;
         const VisibleSegment& s = map.segments[span.segment];
         weights_.add(s, map.lines[s.line], span.left, span.right);
+        if (points_.active()) points_.add(s, map.lines[s.line], span.left, span.right);
     }
     if (!begun && options_.skip_interior) {
         interior_pixels_ += static_cast<std::uint64_t>(count);
         for (int k = 0; k < count; ++k) {
             out.entries.push_back({base[k], FixedWeight{1} << kWeightBits});
             out.offset.push_back(out.entries.size());
+            if (points_.active()) points_.whole(out.points);
         }
         return;
     }
-    if (!begun) weights_.begin(first, count);
+    if (!begun) beginGroup(first, count);
     std::size_t offset[PixelWeights::kLanes + 1];
     weights_.finish(base, out.entries, offset);
     for (int k = 0; k < count; ++k) out.offset.push_back(offset[k + 1]);
+    if (!points_.active()) return;
+    const auto owner_right_of = [&](double x_px) { return classes.of(ownerOnRow(map, row, x_px)); };
+    points_.finish(base, owner_right_of, out.entries, offset, out.points);
 }
 
 void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> segments,
@@ -166,6 +176,7 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
     out.box = box;
     out.offset.assign(1, 0);
     out.entries.clear();
+    out.points.clear();
     Owner base[PixelWeights::kLanes];
     for (int y = box.y0; y < box.y1; ++y) {
         const double sample_y = y + 0.5 + offset_px.y;
@@ -176,7 +187,7 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
             const int row = y + static_cast<int>(offset_px.y);
             ownersAlongRow(map, row, first.x + radius_, count,
                            [&](int k, Owner o) { base[k] = classes.of(o); });
-            runGroup(map, first, count, base, out);
+            runGroup(map, classes, first, row, count, base, out);
         }
     }
 }

@@ -8,6 +8,7 @@
 #include "analytic/pixel_weights.h"
 #include "pipeline/film.h"
 #include "pipeline/scan.h"
+#include "pipeline/shading_points.h"
 
 namespace edgewise {
 
@@ -33,11 +34,13 @@ struct WeightTile {
     PixelBox box;
     std::vector<std::size_t> offset;
     std::vector<OwnerWeight> entries;
+    ShadingPoints points;  ///< by entry
 };
 
 struct WeightOptions {
     bool skip_interior = true;    ///< a support without segments: the point's owner has it all
     bool skip_cancelling = true;  ///< a segment between owners of one class is not integrated
+    ShadingChoice shading;        ///< what WeightTile::points are wanted for
 };
 
 /// One thread's part of the stage.
@@ -62,11 +65,14 @@ class WeightWorker {
     };
     void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
                     const OwnerClasses& classes, double y);
-    void runGroup(const VisibleMap& map, glm::dvec2 first, int count, const Owner* base, WeightTile& out);
+    void runGroup(const VisibleMap& map, const OwnerClasses& classes, glm::dvec2 first, int row, int count,
+                  const Owner* base, WeightTile& out);
+    void beginGroup(glm::dvec2 first, int count);
 
     double radius_;
     WeightOptions options_;
     PixelWeights weights_;
+    ShadingPointFinder points_;
     std::vector<Span> row_;
     std::uint64_t interior_pixels_ = 0;
 };

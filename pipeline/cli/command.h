@@ -15,5 +15,6 @@ void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);
 void addScenes(CLI::App& program);
+void addStability(CLI::App& program, const std::string& command_line);  ///< with the oracle
 
 }  // namespace edgewise::cli

@@ -76,13 +76,36 @@ Json resolvedCameraJson(const Picture& picture) {
 }
 
 /// The default rig, in eye space.
-Json lightsJson() {
+Json rigJson() {
     Json list{{{"type", "ambient"}, {"intensity", kRigAmbient}}};
     for (const RigLight& light : {kRigKey, kRigFill})
         list.push_back({{"type", "directional"},
                         {"frame", "camera"},
                         {"towards", asJson(light.towards)},
                         {"intensity", light.intensity}});
+    return list;
+}
+
+/// One of the file's, in world space.
+Json lightJson(const Light& light) {
+    const bool directional = light.type == Light::Type::kDirectional, spot = light.type == Light::Type::kSpot;
+    Json json{{"name", light.name},
+              {"node", light.node},
+              {"type", directional ? "directional" : (spot ? "spot" : "point")},
+              {"frame", "world"},
+              {"color", asJson(light.color)},
+              {"intensity", light.intensity}};
+    if (!directional) json["position"] = asJson(light.position_world);
+    if (directional || spot) json["direction"] = asJson(light.direction_world);
+    if (light.range) json["range"] = *light.range;
+    if (spot) json["cone"] = {light.inner_cone_angle, light.outer_cone_angle};
+    return json;
+}
+
+Json lightsJson(const Scene& scene) {
+    if (scene.lights.empty()) return rigJson();
+    Json list = Json::array();
+    for (const Light& light : scene.lights) list.push_back(lightJson(light));
     return list;
 }
 
@@ -111,7 +134,7 @@ Json infoJson(const Picture& picture) {
             {"bounds", {{"min", asJson(scene.bounds_min)}, {"max", asJson(scene.bounds_max)}}},
             {"cameras", camerasJson(scene)},
             {"camera", resolvedCameraJson(picture)},
-            {"lights", lightsJson()},
+            {"lights", lightsJson(scene)},
             {"ignored", ignoredJson(scene)},
             {"plan", planJson(picture)}};
 }

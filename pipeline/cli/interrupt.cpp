@@ -5,6 +5,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/error.h"
+#include "pipeline/progress_bar.h"
 
 namespace edgewise::cli {
 namespace {
@@ -12,19 +13,30 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may use it
 
-void onInterrupt(int) {
-    if (!interrupted.exchange(true)) return;
+/// Only what a signal handler may do.
+void leaveAtOnce(int) {
     removePendingFile();
+    wipeProgressLine();
     _exit(kInterruptedStatus);
+}
+
+void onInterrupt(int signal) {
+    if (interrupted.exchange(true)) leaveAtOnce(signal);
+    alarm(kGraceSeconds);
+}
+
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void catchInterrupts() {
-    struct sigaction action = {};
-    action.sa_handler = onInterrupt;
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, nullptr);
+    handle(SIGALRM, leaveAtOnce);
+    handle(SIGINT, onInterrupt);
 }
 
 const std::atomic<bool>& interruptFlag() {

@@ -1,4 +1,4 @@
-// Ctrl-C: the first one asks the work to stop, the second one does not wait for it.
+// Ctrl-C: the first one asks the work to stop, and after a second stops waiting for it; so does another one.
 #pragma once
 
 #include <atomic>
@@ -7,8 +7,11 @@ namespace edgewise::cli {
 
 inline constexpr int kInterruptedStatus = 130;
 
-/// From now on SIGINT sets interruptFlag(); a second one ends the process at once, leaving nothing
-/// half-written.
+/// How long work that does not ask whether it shall stop may go on: sorting, compression, a library's parser.
+inline constexpr unsigned kGraceSeconds = 1;
+
+/// From now on SIGINT sets interruptFlag(); kGraceSeconds later, or at a second one, the process ends. Either
+/// way nothing is left half-written.
 void catchInterrupts();
 
 const std::atomic<bool>& interruptFlag();

@@ -35,6 +35,9 @@ void parseAndRun(int argc, char** argv) {
     addMethods(program);
     addFilters(program);
     addScenes(program);
+#ifdef EDGEWISE_HAS_ORACLE
+    addStability(program, command_line);
+#endif
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {

@@ -119,10 +119,6 @@ void checkAbilities(const MethodArguments& arguments, const MethodSpec& method) 
         throw FailureError("device vulkan", "this build has no Vulkan");
     if (arguments.precision != "fp64")
         throw FailureError("--precision " + arguments.precision, "this build computes weights in fp64 only");
-    // `hit` asks sampling methods alone for something; every other method shades as ever.
-    const bool elsewhere = arguments.shading != "closest" && arguments.shading != "hit";
-    if (elsewhere && method.name == "nsaa")
-        throw FailureError("--shading " + arguments.shading, "nsaa shades at the closest point only");
 }
 
 }  // namespace edgewise::cli

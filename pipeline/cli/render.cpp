@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/cli/aov_options.h"
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/filter_options.h"
 #include "pipeline/cli/interrupt.h"
@@ -16,6 +18,7 @@
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/cli/statistics.h"
+#include "pipeline/cli/strips.h"
 #include "pipeline/error.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/version.h"
@@ -31,7 +34,7 @@ struct RenderArguments {
     FilterArguments filter;
     MethodArguments making;
     std::string method = "nsaa";
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, aovs;
     std::optional<std::string> exposure, stats, dump_stages;
     bool explain = false, quiet = false;
     std::string command_line;
@@ -61,11 +64,9 @@ void checkOutputs(const RenderArguments& arguments) {
             throw InputError("--stats", fmt::format("{} is an --output too", *arguments.stats));
 }
 
-/// Refuses at once what would fill the machine's memory: the finished image is held whole, and once more in
-/// its file's format.
-void requireMemoryFor(const PixelBox& crop) {
-    constexpr double kBytesPerPixel = 4 * 8 + 4 + 2 * 5 * 4;  // RGBA, edge; five floats, raw and compressed
-    const double needed = kBytesPerPixel * crop.width() * crop.height();
+/// Refuses at once what no machine like this could hold, in whatever strips it is made: a stated limit.
+void requireMemoryFor(const PixelBox& crop, const std::set<Aov>& aovs) {
+    const double needed = double(bytesPerPixel(aovs)) * crop.width() * crop.height();
     const double machine =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (needed > machine)
@@ -84,7 +85,7 @@ void makeDumpFolder(const RenderOptions& options) {
                                                       options.dump_dir->string()));
 }
 
-WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const MethodResult& result,
+WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const std::string& device,
                               const RenderOptions& options) {
     WriteOptions write;
     write.width = film.width;
@@ -92,18 +93,59 @@ WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film
     write.exposure_ev = readExposure(arguments.exposure);
     write.metadata = {{"version", version()},
                       {"command", arguments.command_line},
-                      {"device", result.device},
+                      {"device", device},
                       {"seed", fmt::format("{}", options.seed)}};
     return write;
 }
 
-void writeOutputs(const RenderArguments& arguments, const MethodResult& result, const WriteOptions& write) {
-    for (const std::string& output : arguments.outputs) {
-        throwIfInterrupted();
-        writeImage(output, result.image, write);
+/// The outputs, each a writer from the first strip on.
+class Outputs {
+  public:
+    Outputs(const RenderArguments& arguments, const MethodInput& input)
+        : arguments_(arguments), input_(input) {}
+
+    void write(const MethodResult& strip) {
+        if (writers_.empty()) open(strip);
+        for (ImageWriter& writer : writers_) {
+            input_.progress.stage("write", static_cast<std::size_t>(strip.image.box.height()));
+            writer.write(strip.image, input_.progress);
+        }
     }
-    throwIfInterrupted();
-    if (arguments.stats) writeAtomically(*arguments.stats, statisticsJson(result));
+
+    void finish() {
+        for (ImageWriter& writer : writers_) {
+            throwIfInterrupted();
+            writer.finish();
+        }
+    }
+
+  private:
+    void open(const MethodResult& strip) {
+        const WriteOptions options = makeWriteOptions(arguments_, input_.film, strip.device, input_.options);
+        for (const std::string& output : arguments_.outputs)
+            writers_.emplace_back(output, input_.film.crop, strip.image.aov, options);
+    }
+
+    const RenderArguments& arguments_;
+    const MethodInput& input_;
+    std::vector<ImageWriter> writers_;
+};
+
+/// Makes and writes the picture; gives all of the result but the image.
+MethodResult makePicture(const RenderArguments& arguments, const MethodSpec& method,
+                         const MethodInput& input) {
+    Outputs outputs(arguments, input);
+    MethodResult all;
+    for (const PixelBox& strip : stripsOf(input.film.crop, input.options)) {
+        Film film = input.film;
+        film.crop = strip;
+        const MethodResult made =
+            runMethod(method, {input.scene, input.camera, film, input.filter, input.options, input.progress});
+        outputs.write(made);
+        addStrip(made, all);
+    }
+    outputs.finish();
+    return all;
 }
 
 void render(const RenderArguments& arguments) {
@@ -112,6 +154,7 @@ void render(const RenderArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const MethodSpec method = parseMethod(arguments.method);
     RenderOptions options = readMethodOptions(arguments.making);
+    options.aovs = readAovs(arguments.aovs, arguments.outputs);
     if (arguments.dump_stages) options.dump_dir = *arguments.dump_stages;
     checkAbilities(arguments.making, method);
 
@@ -119,11 +162,13 @@ void render(const RenderArguments& arguments) {
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     const Picture picture = loadPicture(arguments.picture, progress);
     warnOfIgnored(picture.scene);
-    requireMemoryFor(picture.film.crop);
+    requireMemoryFor(picture.film.crop, options.aovs);
     makeDumpFolder(options);
-    const MethodResult result =
-        runMethod(method, {picture.scene, picture.camera, picture.film, filter, options, progress});
-    writeOutputs(arguments, result, makeWriteOptions(arguments, picture.film, result, options));
+    const MethodResult result = makePicture(
+        arguments, method, {picture.scene, picture.camera, picture.film, filter, options, progress});
+    throwIfInterrupted();
+    if (arguments.stats) writeAtomically(*arguments.stats, statisticsJson(result));
+    for (const std::string& note : result.notes) spdlog::warn("{}", note);
     if (arguments.explain) fmt::print("{}", planInWords(result.plan));
 }
 
@@ -151,6 +196,7 @@ void addRender(CLI::App& program, const std::string& command_line) {
     command
         ->add_option("--dump-stages", arguments->dump_stages, "every intermediate as data and as a picture")
         ->type_name("DIR");
+    addAovOptions(*command, arguments->aovs);
     command->add_flag("--explain", arguments->explain, "print the plan in words");
     command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
     command->callback([arguments] { render(*arguments); });

@@ -11,6 +11,7 @@
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/exact.h"
 #include "pipeline/methods/nsaa.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/project.h"
@@ -25,6 +26,7 @@ struct WeightsArguments {
     FilterArguments filter;
     MethodArguments making;
     std::string pixel;
+    bool exact = false;
 };
 
 glm::ivec2 readPixel(const std::string& text, const Film& film) {
@@ -57,6 +59,24 @@ Json filterJson(const Prefilter& filter) {
             {"sigma", filter.sigma ? Json(*filter.sigma) : Json(nullptr)}};
 }
 
+/// Beside the weights the oracle's, to 32 digits, and how many units in its last place each is off. An owner
+/// that only one of them sees is listed too.
+void addExact(const MethodInput& input, glm::ivec2 pixel, const PixelReport& report, Json& json) {
+#ifdef EDGEWISE_HAS_ORACLE
+    std::vector<std::pair<Owner, double>> product;
+    for (const PixelOwner& owner : report.owners) product.emplace_back(owner.index, owner.weight);
+    product.emplace_back(kBackground, report.background);
+    json["exact"] = Json::array();
+    for (const ExactWeight& w : exactWeights(input, pixel.x, pixel.y, product))
+        json["exact"].push_back({{"index", w.owner == kBackground ? Json("background") : Json(w.owner)},
+                                 {"weight", w.digits},
+                                 {"difference_ulp", w.ulp_off}});
+#else
+    (void)input, (void)pixel, (void)report, (void)json;
+    throw InputError("--exact", "this build has no oracle");
+#endif
+}
+
 void weights(const WeightsArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const RenderOptions options = readMethodOptions(arguments.making);
@@ -73,6 +93,8 @@ void weights(const WeightsArguments& arguments) {
               {"filter", filterJson(filter)},    {"weights", Json::array()},
               {"background", report.background}, {"sum", report.sum}};
     for (const PixelOwner& owner : report.owners) json["weights"].push_back(ownerJson(picture.scene, owner));
+    if (arguments.exact)
+        addExact({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel, report, json);
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -86,6 +108,7 @@ void addWeights(CLI::App& program) {
     command->add_option("--pixel", arguments->pixel, "column and row, from the top left")
         ->type_name("X,Y")
         ->required();
+    command->add_flag("--exact", arguments->exact, "the oracle's weights beside the normal ones");
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
     command->callback([arguments] { weights(*arguments); });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analytic/prefilter.h"
+#include "pipeline/aov_names.h"
 #include "pipeline/film.h"
 #include "pipeline/image_buffer.h"
 #include "pipeline/progress.h"
@@ -25,7 +26,7 @@ enum class ShadingMode {
     kClosest,   ///< at the owner's point nearest to the pixel's sample
     kCentroid,  ///< at the centroid of what is seen of the owner in the support
     kSamples,   ///< the mean over up to ShadingChoice::samples points of what is seen
-    kHit        ///< sampling methods: each sample where it lands
+    kHit        ///< sampling methods: each sample where it lands; nsaa: kClosest, and says so
 };
 
 struct ShadingChoice {
@@ -40,6 +41,7 @@ struct RenderOptions {
     ShadingChoice shading;
     std::uint64_t seed = 0;
     std::set<std::string> no_skip;
+    std::set<Aov> aovs;
     std::optional<std::filesystem::path> dump_dir;
 
     /// --no-skip NAME, or all.

@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include "pipeline/composite.h"
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
@@ -13,15 +14,19 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     MethodResult result;
     Stopwatch watch;
     ScreenPieces pieces;
-    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
     watch.book("project", result.stages);
     checkCancelled(in.progress);
+    in.progress.stage("visibility", 0);
     const PointSampler sampler(screen, in.film.crop, 1);
     const SampledOwners sampled = sampler.sample(in.film.crop);
     watch.book("visibility", result.stages);
     checkCancelled(in.progress);
     result.image = ImageBuffer(in.film.crop);
+    const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);
+    aov.begin(result.image);
+    aov.points(sampled, result.image);
     in.progress.stage("shade", in.film.crop.height());
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
         for (int x = in.film.crop.x0; x < in.film.crop.x1; ++x) {
@@ -33,6 +38,8 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
                 },
                 in.options.background);
             result.image.rgba[i] = glm::dvec4(seen.color, seen.alpha);
+            const OwnerWeight whole{sampled.owner[i], FixedWeight{1} << kWeightBits};
+            if (aov.weighs()) aov.pixel(x, y, {&whole, 1}, sampled.stacks, result.image);
         }
         in.progress.advance(1);
     });
@@ -41,6 +48,7 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
                      {"pieces", screen.triangles.size()},
                      {"samples", sampled.owner.size()},
                      {"exact_depths", sampler.exactDepths()}};
+    reportAovs(aov, result);
     return result;
 }
 

@@ -15,6 +15,7 @@
 #include "pipeline/composite.h"
 #include "pipeline/dump_stages.h"
 #include "pipeline/gather.h"
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/plan.h"
@@ -37,7 +38,7 @@ Window windowOf(const PixelBox& box, glm::dvec2 offset_px, double reach) {
 /// One thread's scratch, and the time that its two stages took.
 struct TileWorker {
     WeightWorker weights;
-    WeightTile tile;
+    WeightTile tile, every_owner;
     std::vector<StageTime> times;
     std::uint64_t pairs = 0;
 };
@@ -46,10 +47,13 @@ class Nsaa {
   public:
     explicit Nsaa(const MethodInput& in)
         : in_(in),
-          screen_(project(in.scene, in.camera, in.film, pieces_)),
+          screen_(project(in.scene, in.camera, in.film, pieces_, in.progress)),
           shading_(in.scene, in.camera, in.film, screen_, pieces_),
+          aov_(in.options.aovs, in.scene, in.camera, in.film, screen_, pieces_, shading_),
           dump_(in.options.dump_dir, in.film.crop) {
         watch_.book("project", result_.stages);
+        checkCancelled(in.progress);
+        in.progress.stage("plan", 0);
         plan_ = makePlan(in.scene, screen_, pieces_, shading_, in.options);
         plan_.visibility.film_offset_px = offset();
         watch_.book("plan", result_.stages);
@@ -60,12 +64,21 @@ class Nsaa {
     MethodResult render() {
         const PixelBox& crop = in_.film.crop;
         result_.image = ImageBuffer(crop);
-        const std::vector<PixelBox> bands = cutIntoBands(crop);
-        in_.progress.stage("weights", static_cast<std::size_t>(crop.height()));
-        for (const PixelBox& band : bands) renderBand(band);
+        aov_.begin(result_.image);
+        Bands bands = cutIntoBands(crop);
+        std::size_t band_count = 0;
+        for (auto band = bands.next(); band; band = bands.next(), ++band_count) {
+            const std::uint64_t before = visibility_counts_.pieces;
+            renderBand(*band);
+            bands.made(visibility_counts_.pieces - before);
+        }
+        aov_.samplePoints(in_.progress, result_.image);
+        if (aov_.pointSamples()) watch_.book("aov", result_.stages);
         dump_.finish();
         result_.plan = plan_.entries;
-        fillCounts(bands.size());
+        if (in_.options.shading.mode == ShadingMode::kHit)
+            result_.notes.emplace_back("nsaa has no samples that hit: shaded at the closest point");
+        fillCounts(band_count);
         return std::move(result_);
     }
 
@@ -74,22 +87,25 @@ class Nsaa {
         const PixelBox box{x, y, x + 1, y + 1};
         cutIntoBands(box);  // throws where --memory does not suffice
         const VisibleMap map = visibleMapOf(box);
-        TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+        TileWorker worker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         const WeightTiles tiles = gatherSegments(map, box, offset(), in_.filter.radius);
         const MapOwners owners(plan_.classes, map);
         worker.weights.run(map, tiles.segments.ids, owners.classes, box, offset(), worker.tile);
         PixelReport out;
         FixedWeight sum = 0;
-        for (const OwnerWeight& entry : worker.tile.entries) {
+        for (std::size_t e = 0; e < worker.tile.entries.size(); ++e) {
+            const OwnerWeight& entry = worker.tile.entries[e];
             sum += entry.weight;
             reportOwner(owners.stacks.layersOf(entry.owner), entry.weight,
-                        glm::dvec2(x + 0.5, y + 0.5) + offset(), out);
+                        glm::dvec2(x + 0.5, y + 0.5) + offset(), worker.tile.points.of(e), out);
         }
         out.sum = std::ldexp(static_cast<double>(sum), -kWeightBits);
         return out;
     }
 
   private:
+    using Offsets = std::span<const glm::dvec2>;
+
     glm::dvec2 offset() const { return in_.film.debug_offset_px; }
 
     /// What the owners of a map's weights are.
@@ -100,15 +116,27 @@ class Nsaa {
         OwnerClasses classes;
     };
 
-    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
+    /// Those that shade alike as one, for the picture; and each by itself, for the AOVs.
+    struct BandOwners {
+        BandOwners(const OwnerClasses& triangles, const VisibleMap& map, bool apart) : alike(triangles, map) {
+            if (apart) each.emplace(OwnerClasses{}, map);
+        }
+        MapOwners alike;
+        std::optional<MapOwners> each;
+    };
+
+    void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const {
         const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
         const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
             out.owners.push_back(
                 {layers[k], weight * share, color, {layers.begin(), layers.begin() + k + 1}});
         };
-        out.background += weight * throughLayers(
-                                       layers, [&](Owner o) { return shadeTriangle(o, sample); }, add);
+        const auto shade = [&](Owner o) {
+            return offsets.size() > 1 ? shading_.mean(o, sample, offsets)
+                                      : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0]);
+        };
+        out.background += weight * throughLayers(layers, shade, add);
     }
 
     Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
@@ -116,25 +144,50 @@ class Nsaa {
         return shading_.closest(owner, sample_px);
     }
 
-    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const {
         return composite(
             layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in_.options.background);
     }
 
-    /// The buffers beside the image share what --memory leaves.
-    std::vector<PixelBox> cutIntoBands(const PixelBox& crop) {
+    /// The mean of whole stacks: their layers' opacities belong together.
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+        const auto constant = [&](Owner o) {
+            return o == kBackground || (!plan_.constant.empty() && plan_.constant[o]);
+        };
+        if (offsets.empty() || std::all_of(layers.begin(), layers.end(), constant))
+            return shadeAt(layers, sample_px);
+        Shade sum{glm::dvec3(0.0), 0.0};
+        for (const glm::dvec2& offset : offsets) {
+            const Shade one = shadeAt(layers, sample_px + offset);
+            sum.color += one.color, sum.alpha += one.alpha;
+        }
+        const auto count = static_cast<double>(offsets.size());
+        return {sum.color / count, sum.alpha / count};
+    }
+
+    /// What stays as long as the picture is made: the image, the scene on the screen, the plan's tables.
+    std::size_t residentBytes() const {
+        const auto bytes = [](const auto& items) { return items.size() * sizeof(items[0]); };
+        return result_.image.bytes() + bytes(screen_.triangles) + bytes(screen_.planes) +
+               bytes(pieces_.first) + bytes(pieces_.back_facing) + bytes(pieces_.plane_normal_eye) +
+               bytes(plan_.constant) + bytes(plan_.classes.representative);
+    }
+
+    /// The other buffers share what --memory leaves.
+    Bands cutIntoBands(const PixelBox& crop) {
+        checkCancelled(in_.progress);
+        in_.progress.stage("gather", 0);
         const CellGrid grid(windowOf(crop, offset(), reachOf(in_.filter)));
         requireLattice(grid, in_.options.memory_mib << 20);
         const IdLists lists = gather(screen_, grid);
         counts_["cell_triangle_pairs"] = lists.ids.size();
         const std::size_t limit = in_.options.memory_mib << 20;
-        const std::size_t image =
-            result_.image.rgba.size() * sizeof(glm::dvec4) + result_.image.edge.size() * sizeof(float);
-        if (image >= limit)
-            throw FailureError("--memory", fmt::format("the image alone needs {} MiB", image >> 20));
-        auto bands = bandsFor(crop, grid, lists, reachOf(in_.filter), offset(), limit - image);
+        if (residentBytes() >= limit)
+            throw FailureError("--memory",
+                               fmt::format("the image and the projected triangles alone need {} MiB",
+                                           (residentBytes() >> 20) + 1));
         watch_.book("gather", result_.stages);
-        return bands;
+        return Bands(crop, grid, lists, reachOf(in_.filter), offset(), limit - residentBytes());
     }
 
     VisibleMap visibleMapOf(const PixelBox& box) {
@@ -152,38 +205,60 @@ class Nsaa {
     void renderBand(const PixelBox& band) {
         checkCancelled(in_.progress);
         const VisibleMap map = visibleMapOf(band);
-        const MapOwners owners(plan_.classes, map);
+        const BandOwners owners(plan_.classes, map, aov_.weighs() && !plan_.classes.representative.empty());
         dump_.segments(map, band, offset());
         const WeightTiles tiles = gatherSegments(map, band, offset(), in_.filter.radius);
         watch_.book("gather", result_.stages);
         tbb::enumerable_thread_specific<TileWorker> workers([&] {
-            return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}};
+            return TileWorker{WeightWorker(in_.filter, plan_.weights), {}, {}, {}};
         });
+        in_.progress.stage(nameOf(band), tiles.boxes.size());
         tbb::parallel_for(std::size_t{0}, tiles.boxes.size(), [&](std::size_t t) {
             checkCancelled(in_.progress);
             renderTile(map, owners, tiles, t, workers.local());
+            in_.progress.advance(1);
         });
-        in_.progress.advance(static_cast<std::size_t>(band.height()));
         bookTiles(workers, watch_.lap());
     }
 
-    void renderTile(const VisibleMap& map, const MapOwners& owners, const WeightTiles& tiles, std::size_t t,
+    /// Says how far the picture is where it is made in several bands.
+    std::string nameOf(const PixelBox& band) const {
+        const PixelBox& crop = in_.film.crop;
+        if (band.height() == crop.height()) return "weights";
+        return fmt::format("weights to row {} of {}", band.y1 - crop.y0, crop.height());
+    }
+
+    void renderTile(const VisibleMap& map, const BandOwners& owners, const WeightTiles& tiles, std::size_t t,
                     TileWorker& worker) {
         const auto& lists = tiles.segments;
+        const auto ids =
+            std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]);
         Stopwatch watch;
-        worker.weights.run(
-            map, std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
-            owners.classes, tiles.boxes[t], offset(), worker.tile);
+        worker.weights.run(map, ids, owners.alike.classes, tiles.boxes[t], offset(), worker.tile);
         watch.book("weights", worker.times);
-        dump_.weights(worker.tile, owners.stacks);
+        if (aov_.weighs()) {
+            fillAovs(map, owners, ids, worker);
+            watch.book("aov", worker.times);
+        }
+        dump_.weights(worker.tile, owners.alike.stacks);
         worker.pairs += worker.tile.entries.size();
         blend(
-            worker.tile, offset(), [&](Owner o, glm::dvec2 s) { return shade(owners.stacks.layersOf(o), s); },
+            worker.tile, offset(),
+            [&](Owner o, glm::dvec2 s, Offsets at) { return shade(owners.alike.stacks.layersOf(o), s, at); },
             result_.image);
         watch.book("blend", worker.times);
     }
 
-    /// Two stages share the tile loop: its wall time is divided as its threads' time was.
+    /// Owners stand for themselves here, not for all that shade alike: where the picture's weights were
+    /// merged, they are computed once more, so that the picture keeps its bits whatever the AOVs.
+    void fillAovs(const VisibleMap& map, const BandOwners& owners, std::span<const std::uint32_t> ids,
+                  TileWorker& worker) {
+        if (!owners.each) return aov_.tile(worker.tile, owners.alike.stacks, result_.image);
+        worker.weights.run(map, ids, owners.each->classes, worker.tile.box, offset(), worker.every_owner);
+        aov_.tile(worker.every_owner, owners.each->stacks, result_.image);
+    }
+
+    /// Stages share the tile loop: its wall time is divided as its threads' time was.
     void bookTiles(tbb::enumerable_thread_specific<TileWorker>& workers, double wall) {
         double total = 0.0;
         for (const TileWorker& w : workers)
@@ -214,6 +289,7 @@ class Nsaa {
         counts_["exact_depths"] = visibility_counts_.exact_depth;
         counts_["hidden_pairs"] = visibility_counts_.hidden;
         result_.counts = counts_;
+        reportAovs(aov_, result_);
     }
 
     const MethodInput& in_;
@@ -223,6 +299,7 @@ class Nsaa {
     ScreenScene screen_;
     Shading shading_;
     Plan plan_;
+    AovPass aov_;
     StageDump dump_;
     VisibilityCounts visibility_counts_;
     std::map<std::string, std::uint64_t> counts_;

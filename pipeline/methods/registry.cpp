@@ -108,6 +108,12 @@ const std::vector<MethodEntry>& methodRegistry() {
          .number = MethodEntry::Number::kRequired,
          .choices = {},
          .run = runSsaa},
+#ifdef EDGEWISE_HAS_ORACLE
+        {.name = "exact",
+         .summary = "the oracle: exact visibility, weights to 30 digits; for small scenes and crops",
+         .choices = {},
+         .run = runExact},
+#endif
     };
     return registry;
 }

@@ -7,6 +7,7 @@ namespace edgewise {
 
 const std::vector<MethodEntry>& methodRegistry();
 
+MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
 MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);

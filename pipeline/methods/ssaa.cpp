@@ -6,7 +6,9 @@
 #include <cmath>
 #include <span>
 
+#include "analytic/first_moments.h"
 #include "pipeline/composite.h"
+#include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/sample_weights.h"
@@ -47,8 +49,14 @@ double toDouble(FixedWeight weight) {
 
 class PixelFilter {
   public:
-    PixelFilter(const MethodInput& in, const Shading& shading, const SampleWeights& weights, int per_side)
-        : in_(in), shading_(shading), weights_(weights), per_side_(per_side) {}
+    PixelFilter(const MethodInput& in, const Shading& shading, const AovPass& aov,
+                const SampleWeights& weights, int per_side)
+        : in_(in),
+          shading_(shading),
+          aov_(aov),
+          weights_(weights),
+          per_side_(per_side),
+          weighted_centroids_(centroidMeasure(in.filter).name == in.filter.name) {}
 
     void shadeSamples(SampleBand& band) const {
         band.shade.resize(band.owner.size());
@@ -65,6 +73,7 @@ class PixelFilter {
         for (int x = image.box.x0; x < image.box.x1; ++x) {
             collectRuns(band, x, y, runs);
             count += blend(band, x, y, runs, image);
+            if (aov_.weighs()) aov_.pixel(x, y, ownerWeights(runs), band.stacks, image);
         }
         shaded += count;
     }
@@ -89,6 +98,15 @@ class PixelFilter {
         if (mixed)
             std::stable_sort(runs.begin(), runs.end(),
                              [](const auto& a, const auto& b) { return a.owner < b.owner; });
+    }
+
+    std::vector<OwnerWeight> ownerWeights(const std::vector<OwnerRun>& runs) const {
+        std::vector<OwnerWeight> owners;
+        for (const OwnerRun& run : runs) {
+            if (owners.empty() || owners.back().owner != run.owner) owners.push_back({run.owner, 0});
+            owners.back().weight += weights_.rows[run.row].of(run.begin, run.end);
+        }
+        return owners;
     }
 
     std::size_t firstSample(const SampleBand& band, int x, int y, int row) const {
@@ -144,9 +162,23 @@ class PixelFilter {
         const std::vector<glm::dvec2> seen = seenAt(band, x, y, runs);
         if (in_.options.shading.mode == ShadingMode::kSamples)
             return over([&](Owner o) { return meanOver(o, seen); });
+        const glm::dvec2 centroid = corner + centroidOf(seen, runs, corner);
+        return over([&](Owner o) { return shading_.closest(o, centroid); });
+    }
+
+    /// From the corner; by the measure that nsaa takes. Samples that weigh nothing: the pixel's own.
+    glm::dvec2 centroidOf(const std::vector<glm::dvec2>& seen, std::span<const OwnerRun> runs,
+                          glm::dvec2 corner) const {
         glm::dvec2 sum(0.0);
-        for (const glm::dvec2& p : seen) sum += p - corner;
-        return over([&](Owner o) { return shading_.closest(o, corner + sum / double(seen.size())); });
+        double total = 0.0;
+        auto p = seen.begin();
+        for (const OwnerRun& run : runs)
+            for (int i = run.begin; i < run.end; ++i, ++p) {
+                const double weight =
+                    weighted_centroids_ ? toDouble(weights_.rows[run.row].of(i, i + 1)) : 1.0;
+                sum += weight * (*p - corner), total += weight;
+            }
+        return total > 0.0 ? sum / total : glm::dvec2(0.5);
     }
 
     /// The mean over N of the seen samples, spread evenly in their order; colours count by their alpha.
@@ -204,8 +236,10 @@ class PixelFilter {
 
     const MethodInput& in_;
     const Shading& shading_;
+    const AovPass& aov_;
     const SampleWeights& weights_;
     int per_side_;
+    bool weighted_centroids_;
 };
 
 void findRuns(SampleBand& band) {
@@ -241,15 +275,19 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
     const int per_side = *spec.number;
     const SampleWeights weights(in.filter, per_side);
     ScreenPieces pieces;
-    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces);
+    const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
-    const PixelFilter filter(in, shading, weights, per_side);
+    const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);
+    const PixelFilter filter(in, shading, aov, weights, per_side);
     watch.book("project", result.stages);
     checkCancelled(in.progress);
     const PixelBox& crop = in.film.crop;
     const PointSampler sampler(screen, grown(crop, weights.margin_px), per_side);
     watch.book("gather", result.stages);
     result.image = ImageBuffer(crop);
+    aov.begin(result.image);
+    aov.samplePoints(in.progress, result.image);
+    if (aov.pointSamples()) watch.book("aov", result.stages);
     std::atomic<std::uint64_t> shaded{0};
     std::uint64_t samples = 0;
     const int rows = rowsPerBand(in.options, crop, weights.margin_px, per_side);
@@ -278,6 +316,7 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& in) {
                      {"samples", samples},
                      {"shaded", shaded},
                      {"exact_depths", sampler.exactDepths()}};
+    reportAovs(aov, result);
     return result;
 }
 

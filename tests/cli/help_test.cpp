@@ -39,6 +39,7 @@ TEST(Help, OfRenderNamesEveryFlag) {
                              "--shading closest|centroid|samples:N|hit",
                              "--background R,G,B",
                              "--exposure EV",
+                             "--aov NAME",
                              "--threads N",
                              "--memory MIB",
                              "--stats FILE.json",

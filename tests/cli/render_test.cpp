@@ -99,6 +99,13 @@ TEST(Render, SeveralOutputsAreOneImage) {
     EXPECT_EQ(png.spec.height, exr.spec.height);
 }
 
+TEST(Render, AnOutputNamedTwiceIsWritten) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"-o", "./a.exr"});
+    EXPECT_EQ(readPicture(folder / "a.exr").spec.width, 60);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.exr"});
+}
+
 TEST(Render, BackgroundFillsWhatNothingCovers) {
     const TemporaryFolder folder;
     render(folder, "a.exr", {"--background", "0.25,0.5,2"});
@@ -109,6 +116,19 @@ TEST(Render, BackgroundFillsWhatNothingCovers) {
     EXPECT_EQ(corner[2], 2.0f);
     EXPECT_EQ(corner[3], 0.0f);
     EXPECT_EQ(corner[4], 0.0f);
+}
+
+TEST(Render, EveryMethodTakesEveryShading) {
+    for (const std::string method : {"nsaa", "ssaa:2", "none"})
+        for (const std::string shading : {"closest", "centroid", "samples:3", "hit"}) {
+            const TemporaryFolder folder;
+            const ProgramRun run = runProgram({"render", "torus-20k", "-o", "a.exr", "--size", "16x16",
+                                               "--method", method, "--shading", shading, "--stats", "a.json"},
+                                              folder.path());
+            EXPECT_EQ(run.status, 0) << run.err;
+            const auto notes = nlohmann::json::parse(readFile(folder / "a.json")).at("notes");
+            EXPECT_EQ(notes.size(), method == "nsaa" && shading == "hit" ? 1u : 0u) << method << shading;
+        }
 }
 
 TEST(Render, StatisticsAreJson) {
@@ -131,6 +151,76 @@ TEST(Render, NothingIsDrawnWhereThereIsNoTerminal) {
     const ProgramRun run = render(folder, "a.exr");
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(run.err, "");
+}
+
+TEST(Render, AovsAreChannelsOfTheExrAlone) {
+    const TemporaryFolder folder;
+    render(folder, "plain.exr");
+    render(folder, "a.exr",
+           {"-o", "a.png", "--aov", "cryptomatte", "--aov", "depth", "--aov", "depth", "--aov", "normal",
+            "--aov", "index", "--aov", "owners"});
+    const Picture plain = readPicture(folder / "plain.exr"), picture = readPicture(folder / "a.exr");
+    EXPECT_EQ(readPicture(folder / "a.png").spec.nchannels, 3);
+    EXPECT_EQ(picture.spec.nchannels, 5 + 1 + 3 + 1 + 1 + 24);
+    for (const char* name :
+         {"Z", "N.X", "N.Y", "N.Z", "owners", "CryptoObject00.red", "CryptoMaterial02.alpha"})
+        EXPECT_EQ(picture.spec.channelformat(picture.spec.channelindex(name)), OIIO::TypeDesc::FLOAT) << name;
+    EXPECT_EQ(picture.spec.channelformat(picture.spec.channelindex("index")), OIIO::TypeDesc::UINT32);
+    EXPECT_EQ(picture.spec.get_string_attribute("cryptomatte/3ae39a5/name"), "CryptoObject");
+    EXPECT_EQ(picture.at(0, 0)[picture.spec.channelindex("Z")], 1e10f);
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 60; ++x)
+            for (const char* name : {"R", "G", "B", "A", "edge"})
+                ASSERT_EQ(picture.at(x, y)[picture.spec.channelindex(name)],
+                          plain.at(x, y)[plain.spec.channelindex(name)]);
+}
+
+// A picture of 24 MB of channels within 16 MiB: made in strips, which nothing in it shows.
+TEST(Render, APictureLargerThanTheMemoryHasTheSamePixels) {
+    const TemporaryFolder folder;
+    const auto run = [&](const std::string& name, const Arguments& more) {
+        Arguments arguments{"render", "torus-20k",   "--size", "400x400",     "--crop", "3,5,393,395",
+                            "--aov",  "cryptomatte", "-o",     name + ".exr", "-o",     name + ".png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun made = runProgram(arguments, folder.path());
+        EXPECT_EQ(made.status, 0) << made.err;
+    };
+    run("whole", {});
+    run("strips", {"--memory", "16", "--stats", "small.json"});
+    EXPECT_EQ(readPicture(folder / "whole.exr").values, readPicture(folder / "strips.exr").values);
+    EXPECT_EQ(readPicture(folder / "whole.png").values, readPicture(folder / "strips.png").values);
+    const auto stats = nlohmann::json::parse(readFile(folder / "small.json"));
+    EXPECT_EQ(stats.at("counts").at("triangles"), 20000);
+    EXPECT_EQ(folder.names().size(), 5u);
+}
+
+TEST(Render, ASceneTooLargeForTheMemoryFailsInOneLine) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        runProgram({"render", "torus-200k", "-o", "a.exr", "--memory", "2"}, folder.path());
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(lines(run.err).size(), 1u) << run.err;
+    EXPECT_NE(run.err.find("edgewise: error: --memory: "), std::string::npos) << run.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+// From the start of the program to its end, through every stage; how soon is no question for a test.
+TEST(Render, CtrlCLeavesNothingWheneverItComes) {
+    int interrupted = 0, finished = 0;
+    for (int after_ms = 50; finished < 2 && after_ms < 20000; after_ms *= 2) {
+        const TemporaryFolder folder;
+        const ProgramRun run = runProgram({"render", "torus-20k", "-o", "a.exr", "-o", "a.png", "--size",
+                                           "900x900", "--aov", "cryptomatte"},
+                                          folder.path(), after_ms);
+        const std::size_t files = folder.names().size();
+        finished += run.status == 0, interrupted += run.status == 130;
+        // Before the program catches it, the signal itself ends the process.
+        EXPECT_TRUE(run.status == 0 || run.status == 130 || run.status == 128 + 2) << run.status << run.err;
+        EXPECT_TRUE(run.status == 0 ? files == 2 : files <= 1) << run.status;
+        EXPECT_EQ(run.err, "");
+        for (const std::string& name : folder.names()) EXPECT_EQ(name.find(".tmp"), std::string::npos);
+    }
+    EXPECT_GT(interrupted, 0);
 }
 
 TEST(Render, CtrlCEndsWith130AndLeavesNothing) {

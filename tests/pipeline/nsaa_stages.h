@@ -61,16 +61,22 @@ class NsaaStages {
     }
 
     const Plan& plan() const { return plan_; }
+    const ScreenScene& screen() const { return screen_; }
 
     PixelParts pixel(int x, int y) {
         const std::uint64_t terms = worker_.terms(), conflicts = worker_.labelConflicts();
+        WeightTile tile = weigh(x, y);
+        return {worker_.terms() - terms, worker_.labelConflicts() - conflicts, std::move(tile.entries)};
+    }
+
+    WeightTile weigh(int x, int y) {
         const std::size_t t = tileOf(x, y);
         const auto& lists = tiles_.segments;
         const auto ids =
             std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]);
         WeightTile tile;
         worker_.run(map_, ids, plan_.classes, {x, y, x + 1, y + 1}, glm::dvec2(0.0), tile);
-        return {worker_.terms() - terms, worker_.labelConflicts() - conflicts, std::move(tile.entries)};
+        return tile;
     }
 
   private:

@@ -1,0 +1,238 @@
+#include "analytic/exact/kernel_weights.h"
+
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <functional>
+
+#include "analytic/exact/gauss_legendre.h"
+#include "analytic/exact/separable_factor.h"
+
+namespace edgewise::exact {
+namespace {
+
+using boost::math::constants::pi;
+constexpr int kNodes = 40;
+
+struct Edge {
+    Real ax, ay, bx, by;  ///< from the sample
+    Real cross;           ///< of the ends, from exact ones
+};
+
+Edge edgeOf(const Point& a, const Point& b, const Point& sample) {
+    const Rational ax = a.x - sample.x, ay = a.y - sample.y, bx = b.x - sample.x, by = b.y - sample.y;
+    return {Real(ax), Real(ay), Real(bx), Real(by), Real(Rational(ax * by - ay * bx))};
+}
+
+/// One rule, and what two halves say of it.
+template <class Function>
+Weight judgedIntegral(const Real& a, const Real& b, const Function& f) {
+    const GaussRule& rule = gaussRule(kNodes);
+    const Real whole = gaussIntegral(rule, a, b, f), middle = (a + b) / 2;
+    const Real halves = gaussIntegral(rule, a, middle, f) + gaussIntegral(rule, middle, b, f);
+    return {halves, abs(halves - whole)};
+}
+
+void add(Weight& sum, const Weight& part) {
+    sum.value += part.value, sum.error += part.error;
+}
+
+}  // namespace
+
+struct KernelWeights::Form {
+    virtual ~Form() = default;
+    virtual Weight of(const Edge& edge) const = 0;
+};
+
+namespace {
+
+/// F(a, b) = the integral of the kernel over the signed triangle (sample, a, b)
+///         = sum over the parts outside the support of angle/(2 pi) + h int g(r(t)) dt over the part inside,
+/// g(r) = G(r)/r^2, G(r) = int_0^r w(s) s ds, along the line at the signed distance h.
+class Fan : public KernelWeights::Form {
+  public:
+    explicit Fan(const Prefilter& filter)
+        : radius_(filter.radius), stretch_(2 * radius_), g_(meanOf(filter)) {
+        if (filter.kind == KernelKind::kGaussian) stretch_ = Real(*filter.sigma);
+        cone_ = filter.kind == KernelKind::kCone;
+    }
+
+    Weight of(const Edge& e) const override {
+        if (e.cross == 0) return {};
+        const Real ex = e.bx - e.ax, ey = e.by - e.ay, length = sqrt(ex * ex + ey * ey);
+        const Real h = e.cross / length;
+        const Real ta = (e.ax * ex + e.ay * ey) / length, tb = (e.bx * ex + e.by * ey) / length;
+        const Real square = radius_ * radius_ - h * h, c = square > 0 ? sqrt(square) : Real(0);
+        const Real from = std::max(ta, Real(-c)), to = std::min(tb, c);
+        if (from >= to) return {angle(h, ta, tb), Real("1e-48")};
+        Weight sum = inside(h, from, to);
+        if (ta < from) sum.value += angle(h, ta, from);
+        if (to < tb) sum.value += angle(h, to, tb);
+        return sum;
+    }
+
+  private:
+    static Real angle(const Real& h, const Real& t1, const Real& t2) {
+        return atan2(Real(h * (t2 - t1)), Real(h * h + t1 * t2)) / (2 * pi<Real>());
+    }
+
+    Weight inside(const Real& h, const Real& from, const Real& to) const {
+        if (cone_) return {h * (coneIntegral(h, to) - coneIntegral(h, from)), Real("1e-46") * abs(h)};
+        const auto along = [&](const Real& t) { return h * g_(Real(h * h + t * t)); };
+        const int parts = 1 + static_cast<int>(ceil((to - from) / stretch_));
+        Weight sum{0, Real("1e-48")};
+        for (int i = 0; i < parts; ++i)
+            add(sum,
+                judgedIntegral(from + (to - from) * i / parts, from + (to - from) * (i + 1) / parts, along));
+        return sum;
+    }
+
+    /// int g dt for g = 3/(pi R^2) (1/2 - r/(3R)), r^2 = h^2 + t^2: of r it is (t r + h^2 asinh(t/|h|))/2.
+    Real coneIntegral(const Real& h, const Real& t) const {
+        const Real r = sqrt(h * h + t * t);
+        const Real of_r = (t * r + h * h * asinh(Real(t / abs(h)))) / 2;
+        return 3 / (pi<Real>() * radius_ * radius_) * (t / 2 - of_r / (3 * radius_));
+    }
+
+    /// g as a function of r^2.
+    static std::function<Real(const Real&)> meanOf(const Prefilter& filter) {
+        const Real R = filter.radius;
+        if (filter.kind == KernelKind::kGaussian) return gaussianMean(Real(*filter.sigma), R);
+        if (filter.kind == KernelKind::kPoly) return polyMean(filter.poly, R);
+        return [value = 1 / (2 * pi<Real>() * R * R)](const Real&) { return value; };
+    }
+
+    static std::function<Real(const Real&)> gaussianMean(const Real& sigma, const Real& R) {
+        const Real twice = 2 * sigma * sigma, whole = 1 - exp(-R * R / twice);
+        return [=](const Real& r2) {
+            const Real v = r2 / twice;
+            Real mean;  // (1 - e^-v)/v
+            if (v > Real(1e-4))
+                mean = (1 - exp(-v)) / v;
+            else {
+                mean = 0;  // thirteen terms leave v^13/14! < 1e-62
+                for (int k = 13; k >= 1; --k) mean = (1 - v * mean) / k;
+            }
+            return mean / (2 * pi<Real>() * twice * whole);
+        };
+    }
+
+    static std::function<Real(const Real&)> polyMean(const std::vector<double>& c, const Real& R) {
+        Real whole = 0;
+        for (std::size_t k = 0; k < c.size(); ++k) whole += pi<Real>() * R * R * c[k] / Real(k + 1);
+        return [=](const Real& r2) {
+            Real sum = 0;
+            for (std::size_t k = c.size(); k-- > 0;)
+                sum = sum * (r2 / (R * R)) + Real(c[k]) / Real(2 * k + 2);
+            return sum / whole;
+        };
+    }
+
+    Real radius_, stretch_;
+    bool cone_ = false;
+    std::function<Real(const Real&)> g_;
+};
+
+/// Green's theorem: w = sum over edges of int K(x) k(y) dy, K from the left side of the square, 1 beyond its
+/// right.
+class Strip : public KernelWeights::Form {
+  public:
+    explicit Strip(const Prefilter& filter) : factor_(filter) {}
+
+    Weight of(const Edge& e) const override {
+        const Real R = factor_.radius();
+        if (e.ay == e.by || std::max(e.ay, e.by) <= -R || std::min(e.ay, e.by) >= R) return {};
+        std::vector<Real> cuts = {std::clamp(e.ay, Real(-R), R), std::clamp(e.by, Real(-R), R)};
+        const auto cut = [&](const Real& y) {
+            if (y > std::min(cuts[0], cuts[1]) && y < std::max(cuts[0], cuts[1])) cuts.push_back(y);
+        };
+        for (const Real& knot : factor_.knots()) {
+            cut(knot);
+            if (e.ax != e.bx) cut(e.ay + (e.by - e.ay) * (knot - e.ax) / (e.bx - e.ax));
+        }
+        std::sort(cuts.begin(), cuts.end());
+        Weight sum{0, factor_.error()};
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+            if (cuts[i] < cuts[i + 1]) add(sum, piece(e, cuts[i], cuts[i + 1]));
+        if (e.by < e.ay) sum.value = -sum.value;
+        return sum;
+    }
+
+  private:
+    Weight piece(const Edge& e, const Real& y0, const Real& y1) const {
+        const Real R = factor_.radius(), middle = (y0 + y1) / 2, slope = (e.bx - e.ax) / (e.by - e.ay);
+        const auto abscissa = [&](const Real& y) { return e.ax + slope * (y - e.ay); };
+        const Real at = abscissa(middle);
+        const std::size_t row = factor_.intervalOf(middle);
+        if (at <= -R) return {};
+        if (at >= R) return {factor_.mass(row, y1) - factor_.mass(row, y0), Real("1e-47")};
+        const std::size_t column = factor_.intervalOf(at);
+        return judgedIntegral(y0, y1, [&](const Real& y) {
+            return factor_.mass(column, abscissa(y)) * factor_.density(row, y);
+        });
+    }
+
+    SeparableFactor factor_;
+};
+
+bool beyond(const Face& face, const Point& sample, const Rational& radius) {
+    return face.high.x <= sample.x - radius || face.low.x >= sample.x + radius ||
+           face.high.y <= sample.y - radius || face.low.y >= sample.y + radius;
+}
+
+template <class Visit>
+void forEdges(const Face& face, const Visit& visit) {
+    for (const auto& cycle : face.cycles)
+        for (std::size_t i = 0; i < cycle.size(); ++i) visit(cycle[i], cycle[(i + 1) % cycle.size()]);
+}
+
+/// int clamp(x - left, 0, width) dy from a to b, y within [low, high].
+Rational clampedArea(Point a, Point b, const Rational& left, const Rational& width, const Rational& low,
+                     const Rational& high) {
+    const bool turned = b.y < a.y;
+    if (turned) std::swap(a, b);
+    if (a.y == b.y || b.y <= low || a.y >= high) return 0;
+    const Rational slope = (b.x - a.x) / (b.y - a.y);
+    const auto abscissa = [&](const Rational& y) { return Rational(a.x + slope * (y - a.y) - left); };
+    std::vector<Rational> cuts = {std::max(a.y, low), std::min(b.y, high)};
+    for (const Rational& x : {left, Rational(left + width)}) {
+        if (slope == 0) continue;
+        const Rational y = a.y + (x - a.x) / slope;
+        if (y > cuts[0] && y < cuts[1]) cuts.push_back(y);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    Rational sum = 0;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+        const Rational x = abscissa((cuts[i] + cuts[i + 1]) / 2);
+        sum += (cuts[i + 1] - cuts[i]) * std::clamp(x, Rational(0), width);
+    }
+    return turned ? -sum : sum;
+}
+
+}  // namespace
+
+Rational boxWeight(const Face& face, const Point& sample, const Rational& radius) {
+    if (beyond(face, sample, radius)) return 0;
+    Rational sum = 0;
+    const Rational left = sample.x - radius, low = sample.y - radius, high = sample.y + radius;
+    forEdges(face,
+             [&](const Point& a, const Point& b) { sum += clampedArea(a, b, left, 2 * radius, low, high); });
+    return sum / (4 * radius * radius);
+}
+
+KernelWeights::KernelWeights(const Prefilter& filter) : radius_(filter.radius) {
+    if (filter.radial())
+        form_ = std::make_unique<Fan>(filter);
+    else
+        form_ = std::make_unique<Strip>(filter);
+}
+
+KernelWeights::~KernelWeights() = default;
+
+Weight KernelWeights::of(const Face& face, const Point& sample) const {
+    Weight sum;
+    if (beyond(face, sample, radius_)) return sum;
+    forEdges(face, [&](const Point& a, const Point& b) { add(sum, form_->of(edgeOf(a, b, sample))); });
+    return sum;
+}
+
+}  // namespace edgewise::exact

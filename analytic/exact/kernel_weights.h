@@ -1,0 +1,35 @@
+// The weight of an exact face in the support of a sample, to 30 digits or better, by ways of its own: radial
+// kernels by whole fans from the sample (angles and all), separable ones by strips with series in both axes,
+// both by Gauss-Legendre rules; the box in rationals.
+#pragma once
+
+#include <memory>
+
+#include "analytic/exact/visible_faces.h"
+#include "analytic/prefilter.h"
+
+namespace edgewise::exact {
+
+struct Weight {
+    Real value = 0;
+    Real error = 0;  ///< estimated: one rule against two halves, and what roundings may add
+};
+
+/// The share of the square of half width `radius` around the sample that the face covers: exact.
+Rational boxWeight(const Face& face, const Point& sample, const Rational& radius);
+
+class KernelWeights {
+  public:
+    explicit KernelWeights(const Prefilter& filter);
+    ~KernelWeights();
+
+    Weight of(const Face& face, const Point& sample) const;
+
+    struct Form;  ///< how one directed edge counts
+
+  private:
+    std::unique_ptr<const Form> form_;
+    Rational radius_;
+};
+
+}  // namespace edgewise::exact

@@ -1,0 +1,162 @@
+#include "pipeline/judge/stability.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analytic/exact/kernel_weights.h"
+#include "analytic/pixel_weights.h"
+#include "analytic/row_owners.h"
+#include "analytic/visibility.h"
+#include "pipeline/error.h"
+#include "pipeline/judge/stability_cases.h"
+#include "pipeline/methods/stopwatch.h"
+
+namespace edgewise::judge {
+namespace {
+
+using exact::Real;
+
+struct Product {
+    std::map<Owner, FixedWeight> weights;
+    FixedWeight sum = 0;
+    std::uint64_t terms = 0, conflicts = 0;
+    VisibilityCounts counts;
+    double seconds = 0.0;
+};
+
+Window windowAround(glm::ivec2 pixel, double radius) {
+    const int reach = static_cast<int>(std::ceil(radius)) + 2;
+    return {pixel.x - reach, pixel.y - reach, pixel.x + reach + 1, pixel.y + reach + 1};
+}
+
+Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
+    Product out;
+    Stopwatch watch;
+    const VisibleMap map = visibleMap(stiff.scene, windowAround(stiff.pixel, filter.radius), {}, &out.counts);
+    const glm::dvec2 sample = glm::dvec2(stiff.pixel) + 0.5;
+    PixelWeights engine(filter);
+    engine.begin(sample, 1);
+    for (const VisibleSegment& s : map.segments) engine.add(s, map.lines[s.line], s.left, s.right);
+    const Owner base = ownerOnRow(map, stiff.pixel.y, sample.x + filter.radius);
+    std::vector<OwnerWeight> weights;
+    std::size_t offset[2] = {0, 0};
+    engine.finish(&base, weights, offset);
+    out.seconds = watch.lap();
+    for (const OwnerWeight& w : weights) out.weights[w.owner] = w.weight, out.sum += w.weight;
+    out.terms = engine.terms();
+    out.conflicts = engine.label_conflicts();
+    return out;
+}
+
+struct Truth {
+    std::map<Owner, Real> weights;
+    Real error = 0;
+};
+
+Truth runOracle(const StiffScene& stiff, const Prefilter& filter) {
+    const glm::dvec2 sample = glm::dvec2(stiff.pixel) + 0.5;
+    const double reach = filter.radius;
+    const exact::KernelWeights kernel(filter);
+    const exact::Point at{exact::Rational(sample.x), exact::Rational(sample.y)};
+    Truth truth;
+    Real rest = 1;
+    for (const exact::Face& face : exact::visibleFaces(
+             stiff.scene, {sample.x - reach, sample.y - reach, sample.x + reach, sample.y + reach})) {
+        const exact::Weight w = kernel.of(face, at);
+        truth.weights[face.owner] += w.value;
+        truth.error += w.error;
+        rest -= w.value;
+    }
+    truth.weights[kBackground] = rest;
+    return truth;
+}
+
+void judge(const Product& product, const Truth& truth, StabilityRow& row) {
+    constexpr double kSeen = 0x1p-50, kSizeable = 0x1p-30;
+    const double bound = promisedBound(product.terms);
+    auto all = truth.weights;
+    for (const auto& [owner, weight] : product.weights) all.try_emplace(owner, 0);
+    for (const auto& [owner, exact_weight] : all) {
+        const auto found = product.weights.find(owner);
+        const FixedWeight fixed = found == product.weights.end() ? 0 : found->second;
+        const double error = std::abs(static_cast<double>(Real(Real(fixed) * Real(0x1p-60) - exact_weight)));
+        const double size = std::abs(static_cast<double>(exact_weight));
+        if (error > row.max_error) row.max_error = error, row.bound = bound;
+        row.worst_of_bound = std::max(row.worst_of_bound, error / bound);
+        if (size >= kSizeable) {
+            row.max_relative = std::max(row.max_relative, error / size);
+            row.max_error_ulp = std::max(row.max_error_ulp, error / (std::nextafter(size, 2.0) - size));
+        }
+        row.ownership_errors += (fixed == 0) != (size < 0x1p-61) && std::max(size, error) >= kSeen;
+        ++row.weights;
+    }
+    if (row.bound == 0.0) row.bound = bound;
+    row.partition_defect =
+        std::max(row.partition_defect,
+                 std::abs(std::ldexp(double(product.sum - (FixedWeight{1} << kWeightBits)), -60)));
+    row.label_conflicts += product.conflicts;
+    row.exact_depths += product.counts.exact_depth;
+    row.closings += product.counts.closings;
+    row.seconds += product.seconds;
+    row.oracle_error = std::max(row.oracle_error, static_cast<double>(truth.error));
+    ++row.scenes;
+}
+
+StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double difficulty, int scenes,
+                    Progress& progress) {
+    StabilityRow row;
+    row.case_name = one.name, row.filter = filter.name, row.condition = difficulty;
+    const Prefilter used = one.filter ? one.filter(difficulty, filter) : filter;
+    for (int seed = 1; seed <= scenes; ++seed) {
+        if (progress.cancelled()) throw Interrupted();
+        const StiffScene stiff = one.make(difficulty, used, static_cast<std::uint64_t>(seed));
+        judge(runProduct(stiff, used), runOracle(stiff, used), row);
+    }
+    row.seconds /= scenes;
+    return row;
+}
+
+std::vector<const StabilityCase*> chosenCases(const std::vector<std::string>& names) {
+    std::vector<const StabilityCase*> chosen;
+    std::vector<std::string> known;
+    for (const StabilityCase& one : stabilityCases()) {
+        known.push_back(one.name);
+        if (names.empty() || std::ranges::find(names, one.name) != names.end()) chosen.push_back(&one);
+    }
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end())
+            throw InputError("--case", fmt::format("'{}' is none of {}", name, fmt::join(known, ", ")));
+    return chosen;
+}
+
+}  // namespace
+
+double promisedBound(std::uint64_t terms) {
+    return static_cast<double>(terms) * (10.0 * 0x1p-53 + 0x1p-61) + 0x1p-61;
+}
+
+std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress) {
+    struct Task {
+        const StabilityCase* one;
+        const Prefilter* filter;
+        double difficulty;
+    };
+    std::vector<Task> tasks;
+    for (const StabilityCase* one : chosenCases(options.cases))
+        for (const Prefilter& filter : options.filters)
+            for (const double difficulty : one->difficulties) tasks.push_back({one, &filter, difficulty});
+    std::vector<StabilityRow> rows(tasks.size());
+    progress.stage("stability", tasks.size());
+    // CGAL's lazy numbers share nodes between threads without a lock: one thread.
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        rows[i] = runRow(*tasks[i].one, *tasks[i].filter, tasks[i].difficulty, options.scenes, progress);
+        progress.advance(1);
+    }
+    return rows;
+}
+
+}  // namespace edgewise::judge

@@ -1,0 +1,46 @@
+// The stability study: the product against the oracle over stiff and extreme scenes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analytic/prefilter.h"
+#include "pipeline/progress.h"
+
+namespace edgewise::judge {
+
+/// What one difficulty of one case comes to with one filter, over several random scenes.
+struct StabilityRow {
+    std::string case_name, filter;
+    double condition = 0.0;
+    std::size_t scenes = 0, weights = 0;
+    double max_error = 0.0;  ///< of a weight
+    double max_error_ulp =
+        0.0;  ///< in units in the last place of the exact weight, where that is 2^-30 or more
+    double max_relative = 0.0;         ///< the same, relative
+    double bound = 0.0;                ///< promised for the scene of the largest error: see promisedBound()
+    double worst_of_bound = 0.0;       ///< the largest ratio of an error to its scene's bound
+    std::size_t ownership_errors = 0;  ///< owners that one sees with 2^-50 or more and the other not at all
+    double partition_defect = 0.0;     ///< |sum of weights - 1|, in the fixed point
+    std::uint64_t label_conflicts = 0;
+    std::uint64_t exact_depths = 0;  ///< depth comparisons that the filter left to exact arithmetic
+    std::uint64_t closings = 0;      ///< pieces that close what rounded planes left open
+    double seconds = 0.0;            ///< the product's, a pixel
+    double oracle_error = 0.0;       ///< the oracle's own estimate
+};
+
+/// A weight that n terms make errs by at most n (10 u + 2^-61) + 2^-61, u = 2^-53: ten roundings of a term
+/// that is below 1, and the fixed point's.
+double promisedBound(std::uint64_t terms);
+
+struct StabilityOptions {
+    std::vector<Prefilter> filters;
+    int scenes = 4;                  ///< a difficulty
+    std::vector<std::string> cases;  ///< names; empty: all
+};
+
+/// Rows by case, filter, difficulty. Throws InputError for an unknown case, Interrupted when cancelled.
+std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress);
+
+}  // namespace edgewise::judge

@@ -1,0 +1,68 @@
+// The light that reaches a point: the file's punctual lights, or the default rig. No shadows.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "pipeline/film.h"
+#include "pipeline/scene.h"
+
+namespace edgewise {
+
+/// The default rig for lit materials of files without lights, fixed to the camera (eye space: x right, y up,
+/// z towards the viewer): an ambient term and two directional lights, each of pi * intensity lux, so that
+/// white Lambert facing one of them shines with `intensity`.
+struct RigLight {
+    glm::dvec3 towards;  ///< unit, from the surface to the light
+    double intensity;
+};
+inline constexpr double kRigAmbient = 0.15;
+inline constexpr RigLight kRigKey{{2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, 0.8};
+inline constexpr RigLight kRigFill{{-6.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0}, 0.2};
+
+/// One light as it arrives at a point.
+struct Arrival {
+    glm::dvec3 towards{0.0, 0.0, 1.0};  ///< unit, from the point to the light, eye space
+    glm::dvec3 illuminance{0.0};        ///< lux on a surface that faces it
+};
+
+/// The lights of a scene in eye space, by KHR_lights_punctual:
+///     directional: intensity lux, everywhere the same
+///     point, spot: intensity candela / d^2, times the window max(0, 1 - (d / range)^4) if it has a range;
+///     spot: times clamp((cos - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, cos between its
+///     direction and the ray.
+/// A light gives nothing at its own position. Units: a colour value of 1 is 1 cd/m^2, so 1 lux on white
+/// Lambert facing it gives 1/pi; --exposure scales PNGs. A file with lights gets no ambient term.
+class Lighting {
+  public:
+    Lighting(const Scene& scene, const ResolvedCamera& camera);
+
+    /// The file has no lights: the rig's ambient term counts, and the rig sees every surface from +z, the
+    /// direction from which the camera looks, under perspective too. So flat triangles have one colour.
+    bool isRig() const { return rig_; }
+
+    /// Light and view direction are the same everywhere: the rig's, or directional lights on an orthographic
+    /// camera.
+    bool isUniform() const { return uniform_; }
+
+    /// Unit, from the point to where it is seen from, eye space.
+    glm::dvec3 view(const glm::dvec3& p_eye) const;
+
+    std::size_t count() const { return lights_.size(); }
+    Arrival arrival(std::size_t i, const glm::dvec3& p_eye) const;
+
+  private:
+    struct EyeLight {
+        Light::Type type;
+        glm::dvec3 position, along;  ///< eye space; along: unit, the way the light travels
+        glm::dvec3 strength;         ///< color times lux or candela
+        double range;                ///< infinity: none
+        double cos_outer, scale;     ///< spot
+    };
+    static EyeLight inEyeSpace(const Light& light, const glm::dmat4& camera_from_world);
+
+    std::vector<EyeLight> lights_;
+    bool rig_, perspective_, uniform_;
+};
+
+}  // namespace edgewise
