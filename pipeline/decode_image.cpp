@@ -4,25 +4,28 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "pipeline/error.h"
 #include "pipeline/png_chunks.h"
+#include "pipeline/webp_size.h"
 
 namespace edgewise {
 namespace {
 
-/// OpenImageIO's reader. Nothing but the two formats of glTF gets that far.
+bool hasAt(std::span<const std::uint8_t> bytes, std::size_t at, std::string_view text) {
+    return bytes.size() >= at + text.size() &&
+           std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+/// OpenImageIO's reader. Nothing but the formats of glTF and EXT_texture_webp gets that far.
 const char* readerName(std::span<const std::uint8_t> bytes, const std::string& what) {
-    constexpr std::array<std::uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    constexpr std::array<std::uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
-    const auto startsWith = [&](const auto& magic) {
-        return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-    };
-    if (startsWith(png)) return "png";
-    if (startsWith(jpeg)) return "jpeg";
-    throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG nor JPEG");
+    if (hasAt(bytes, 0, "\x89PNG\r\n\x1a\n")) return "png";
+    if (hasAt(bytes, 0, "\xff\xd8\xff")) return "jpeg";
+    if (hasAt(bytes, 0, "RIFF") && hasAt(bytes, 8, "WEBP")) return "webp";
+    throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG, JPEG nor WebP");
 }
 
 struct Samples {
@@ -31,13 +34,10 @@ struct Samples {
     std::vector<std::uint16_t> values;
 };
 
-void needSize(const OIIO::ImageSpec& spec, const std::string& what) {
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw InputError(what, "has no pixels");
-    const std::uint64_t texels =
-        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-    if (texels > kMaxImageTexels)
-        throw FailureError(
-            what, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxImageTexels));
+void needSize(std::uint64_t width, std::uint64_t height, const std::string& what) {
+    if (width * height > kMaxImageTexels)
+        throw FailureError(what,
+                           fmt::format("{} x {} pixels, the limit is {}", width, height, kMaxImageTexels));
 }
 
 template <class T>
@@ -69,7 +69,8 @@ Samples readSamples(const char* name, std::vector<std::uint8_t> bytes, const std
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const auto input = openInput(name, memory, what);
     const OIIO::ImageSpec& spec = input->spec();
-    needSize(spec, what);
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw InputError(what, "has no pixels");
+    needSize(static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), what);
     Samples samples;
     samples.width = spec.width;
     samples.height = spec.height;
@@ -83,11 +84,25 @@ Samples readSamples(const char* name, std::vector<std::uint8_t> bytes, const std
     return samples;
 }
 
-std::vector<float> linearTable(double largest) {
+/// Every value a sample may have, linear in [0, 1].
+std::vector<float> linearTable(double largest, ColorEncoding encoding) {
     std::vector<float> table(static_cast<std::size_t>(largest) + 1);
-    for (std::size_t i = 0; i < table.size(); ++i)
-        table[i] = static_cast<float>(linearFromSrgb(static_cast<double>(i) / largest));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double value = static_cast<double>(i) / largest;
+        table[i] = static_cast<float>(encoding == ColorEncoding::kSrgb ? linearFromSrgb(value) : value);
+    }
     return table;
+}
+
+/// The bytes the decoder gets, once what it would trip over or allocate for nothing is ruled out.
+std::vector<std::uint8_t> vetted(std::string_view name, std::span<const std::uint8_t> bytes,
+                                 const std::string& what) {
+    if (name == "png") return pixelChunks(bytes, what);
+    if (name == "webp") {
+        const WebpSize size = webpSize(bytes, what);
+        needSize(size.width, size.height, what);
+    }
+    return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -96,12 +111,10 @@ double linearFromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-Image decodeSrgbImage(std::span<const std::uint8_t> bytes, const std::string& what) {
-    const std::string name = readerName(bytes, what);
-    const Samples samples =
-        readSamples(name.c_str(),
-                    name == "png" ? pixelChunks(bytes, what) : std::vector(bytes.begin(), bytes.end()), what);
-    const std::vector<float> linear = linearTable(samples.largest);
+Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, const std::string& what) {
+    const char* const name = readerName(bytes, what);
+    const Samples samples = readSamples(name, vetted(name, bytes, what), what);
+    const std::vector<float> linear = linearTable(samples.largest, encoding);
     const auto channels = static_cast<std::size_t>(samples.channels);
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
     Image image;

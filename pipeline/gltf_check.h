@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "pipeline/gltf_element.h"
 
@@ -16,8 +17,14 @@ inline constexpr std::uint64_t kMaxUnbackedElements = std::uint64_t(1) << 24;
 /// Whole numbers written as 3.0 become 3 in the document.
 void checkGltf(GltfDocument& document);
 
+/// True if edgewise draws what the extension says.
+bool isSupportedExtension(std::string_view name);
+
 /// Bytes of one component (5120 BYTE ... 5126 FLOAT).
 std::uint64_t componentBytes(std::uint64_t component_type);
+
+/// Cameras of other types are ignored.
+bool isKnownCamera(const GltfElement& camera);
 
 /// How many elements each section of the file has: what references may point to.
 struct GltfCounts {

@@ -43,6 +43,15 @@ class GltfElement {
     std::size_t size() const { return value_->size(); }
     GltfElement at(std::size_t i) const { return {(*value_)[i], fmt::format("{}[{}]", where_, i)}; }
 
+    /// The body of an extension of this element, an object.
+    std::optional<GltfElement> extension(const char* name) const {
+        const auto extensions = find("extensions");
+        if (!extensions) return std::nullopt;
+        const auto body = extensions->object().find(name);
+        if (body) body->object();
+        return body;
+    }
+
     const GltfElement& object() const { return expect(value_->is_object(), "an object"); }
     const GltfElement& array() const { return expect(value_->is_array(), "an array"); }
     std::string string() const {
@@ -96,6 +105,10 @@ class GltfElement {
     std::uint64_t integerOr(const char* key, std::uint64_t absent) const {
         const auto found = find(key);
         return found ? found->integer() : absent;
+    }
+    double numberOr(const char* key, double absent) const {
+        const auto found = find(key);
+        return found ? found->number() : absent;
     }
     bool booleanOr(const char* key, bool absent) const {
         const auto found = find(key);

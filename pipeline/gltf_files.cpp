@@ -111,7 +111,8 @@ void rewriteUri(nlohmann::json& element, const GltfDocument& document) {
 
 nlohmann::json forTinygltf(const GltfDocument& document) {
     nlohmann::json root = document.root;
-    for (const char* section : {"animations", "skins", "extras"}) root.erase(section);
+    for (const char* section : {"animations", "skins", "materials", "cameras", "extensions", "extras"})
+        root.erase(section);
     for (const char* section : {"buffers", "images"}) {
         if (!root.contains(section)) continue;
         for (auto& element : root[section])

@@ -67,6 +67,11 @@ glm::dmat3 normalTransform(const glm::dmat4& m) {
     return glm::dmat3(glm::cross(a[1], a[2]), glm::cross(a[2], a[0]), glm::cross(a[0], a[1])) * sign;
 }
 
+std::optional<glm::dvec3> unitVector(const glm::dvec3& v) {
+    if (largestOf(v) == 0.0) return std::nullopt;
+    return glm::normalize(scaledToOne(v));
+}
+
 std::optional<glm::dmat4> rigidTransform(const glm::dmat4& m) {
     const glm::dvec3 back = scaledToOne(m[2]), up = scaledToOne(m[1]);
     if (largestOf(back) == 0.0 || largestOf(up) == 0.0) return std::nullopt;

@@ -27,4 +27,7 @@ glm::dmat3 normalTransform(const glm::dmat4& world_from_node);
 /// lies along z.
 std::optional<glm::dmat4> rigidTransform(const glm::dmat4& world_from_node);
 
+/// v / |v|, without overflow or underflow on the way; none for the zero vector.
+std::optional<glm::dvec3> unitVector(const glm::dvec3& v);
+
 }  // namespace edgewise

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "pipeline/scene.h"
@@ -16,6 +17,9 @@ inline constexpr std::size_t kMaxVertices = std::size_t(1) << 27;
 
 struct LoadOptions {
     std::string scene;  ///< --scene NAME|INDEX; empty: the file's own, else the first, else every root node
+    /// --time: seconds into an animation; none: the rest pose, which no animation moves.
+    std::optional<double> time;
+    std::string animation;                          ///< --animation NAME|INDEX; empty: the first
     std::function<void(double fraction)> progress;  ///< called with 0..1; may throw to stop
 };
 
