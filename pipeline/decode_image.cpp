@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "pipeline/error.h"
@@ -34,10 +35,24 @@ struct Samples {
     std::vector<std::uint16_t> values;
 };
 
-void needSize(std::uint64_t width, std::uint64_t height, const std::string& what) {
-    if (width * height > kMaxImageTexels)
+/// Texels that a byte of the file can hold at most. PNG: deflate expands by no more than 1032, and a byte of
+/// a row holds 8 one-bit texels. JPEG: a block of 8 x 8 takes a bit at least, and chroma shares what luma
+/// takes. WebP: no bound, lossless pictures of one colour take no bits a texel.
+std::uint64_t texelsPerByte(std::string_view name) {
+    if (name == "png") return 1032 * 8;
+    return name == "jpeg" ? 8 * 64 : std::numeric_limits<std::uint32_t>::max();
+}
+
+struct SizeLimits {
+    std::uint64_t max_texels, max_plausible;
+};
+
+void needSize(std::uint64_t width, std::uint64_t height, const SizeLimits& limits, const std::string& what) {
+    if (width * height > limits.max_texels)
         throw FailureError(what,
-                           fmt::format("{} x {} pixels, the limit is {}", width, height, kMaxImageTexels));
+                           fmt::format("{} x {} pixels, the limit is {}", width, height, limits.max_texels));
+    if (width * height > limits.max_plausible)
+        throw InputError(what, fmt::format("{} x {} pixels are more than its bytes hold", width, height));
 }
 
 template <class T>
@@ -65,12 +80,13 @@ std::unique_ptr<OIIO::ImageInput> openInput(const char* name, OIIO::Filesystem::
     return input;
 }
 
-Samples readSamples(const char* name, std::vector<std::uint8_t> bytes, const std::string& what) {
+Samples readSamples(const char* name, std::vector<std::uint8_t> bytes, const SizeLimits& limits,
+                    const std::string& what) {
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const auto input = openInput(name, memory, what);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw InputError(what, "has no pixels");
-    needSize(static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), what);
+    needSize(static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), limits, what);
     Samples samples;
     samples.width = spec.width;
     samples.height = spec.height;
@@ -96,11 +112,11 @@ std::vector<float> linearTable(double largest, ColorEncoding encoding) {
 
 /// The bytes the decoder gets, once what it would trip over or allocate for nothing is ruled out.
 std::vector<std::uint8_t> vetted(std::string_view name, std::span<const std::uint8_t> bytes,
-                                 const std::string& what) {
+                                 const SizeLimits& limits, const std::string& what) {
     if (name == "png") return pixelChunks(bytes, what);
     if (name == "webp") {
         const WebpSize size = webpSize(bytes, what);
-        needSize(size.width, size.height, what);
+        needSize(size.width, size.height, limits, what);
     }
     return {bytes.begin(), bytes.end()};
 }
@@ -111,9 +127,11 @@ double linearFromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, const std::string& what) {
+Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, std::uint64_t max_texels,
+                  const std::string& what) {
     const char* const name = readerName(bytes, what);
-    const Samples samples = readSamples(name, vetted(name, bytes, what), what);
+    const SizeLimits limits{max_texels, bytes.size() * texelsPerByte(name)};
+    const Samples samples = readSamples(name, vetted(name, bytes, limits, what), limits, what);
     const std::vector<float> linear = linearTable(samples.largest, encoding);
     const auto channels = static_cast<std::size_t>(samples.channels);
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;

@@ -9,11 +9,12 @@
 namespace edgewise {
 namespace {
 
-constexpr std::array<std::string_view, 7> kSupported{
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",     "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 10> kSupported{
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",        "KHR_mesh_quantization",   "KHR_meshopt_compression",
+    "KHR_texture_transform",
+};
 
 struct Version {
     int major = 0, minor = 0;
@@ -94,7 +95,7 @@ void checkGltf(GltfDocument& document) {
     checkAsset(root);
     checkExtensions(root);
     const GltfCounts counts = countSections(root);
-    checkData(root, counts, document);
+    checkData(root, document);
     checkSurfaces(root, counts, document);
     checkHierarchy(root, counts);
 }

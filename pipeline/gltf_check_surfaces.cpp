@@ -3,6 +3,7 @@
 
 #include "pipeline/gltf_check.h"
 #include "pipeline/gltf_document.h"
+#include "pipeline/gltf_draco.h"
 #include "pipeline/gltf_files.h"
 
 namespace edgewise {
@@ -104,6 +105,7 @@ void checkPrimitive(const GltfElement& primitive, const GltfCounts& counts) {
     primitive.referenceIf("indices", counts.accessors, "accessors");
     primitive.referenceIf("material", counts.materials, "materials");
     primitive.integerOr("mode", 4);
+    checkDraco(primitive, counts);
     primitive.each("targets", [&](const GltfElement& target) { checkAttributes(target, counts); });
 }
 

@@ -64,8 +64,8 @@ void readTextures(const GltfElement& from, GltfTextures& textures, Material& mat
 }  // namespace
 
 void readMaterials(const GltfElement& root, const tinygltf::Model& model, const std::vector<bool>& used,
-                   Scene& scene) {
-    GltfTextures textures(root, model, scene);
+                   std::uint64_t max_texels, Scene& scene) {
+    GltfTextures textures(root, model, max_texels, scene);
     root.each("materials", [&](const GltfElement& from) {
         Material material = readFactors(from);
         if (used[scene.materials.size()]) readTextures(from, textures, material);

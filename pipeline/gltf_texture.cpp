@@ -107,7 +107,7 @@ std::uint32_t GltfTextures::image(std::size_t index, ColorEncoding encoding) {
         const std::string name = from.uri.empty() ? from.name : from.uri;
         const std::string where =
             fmt::format("{}: images[{}]{}", scene_.source, index, name.empty() ? "" : " " + name);
-        scene_.images.push_back(decodeImage(from.image, encoding, where));
+        scene_.images.push_back(decodeImage(from.image, encoding, max_texels_, where));
         scene_.images.back().name = name;
     }
     return known->second;

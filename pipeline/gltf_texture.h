@@ -23,8 +23,9 @@ glm::dmat3 textureTransform(const GltfElement& transform);
 class GltfTextures {
   public:
     /// `root` is a checked document's; `model` holds its images' encoded bytes. Both outlive this.
-    GltfTextures(const GltfElement& root, const tinygltf::Model& model, Scene& scene)
-        : root_(root), model_(model), scene_(scene) {}
+    GltfTextures(const GltfElement& root, const tinygltf::Model& model, std::uint64_t max_texels,
+                 Scene& scene)
+        : root_(root), model_(model), max_texels_(max_texels), scene_(scene) {}
 
     /// The texture info `key` of a material (or a part of one), if it has one and it can be drawn; what
     /// cannot is counted as ignored. Throws InputError "source: images[i]".
@@ -38,6 +39,7 @@ class GltfTextures {
 
     GltfElement root_;
     const tinygltf::Model& model_;
+    std::uint64_t max_texels_;
     Scene& scene_;
     std::map<Key, std::uint32_t> texture_of_, image_of_;
 };

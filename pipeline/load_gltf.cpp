@@ -12,12 +12,14 @@
 #include "pipeline/gltf_camera.h"
 #include "pipeline/gltf_check.h"
 #include "pipeline/gltf_document.h"
+#include "pipeline/gltf_draco.h"
 #include "pipeline/gltf_files.h"
 #include "pipeline/gltf_hierarchy.h"
 #include "pipeline/gltf_ignored.h"
 #include "pipeline/gltf_instancing.h"
 #include "pipeline/gltf_lights.h"
 #include "pipeline/gltf_material.h"
+#include "pipeline/gltf_meshopt.h"
 #include "pipeline/gltf_place.h"
 #include "pipeline/gltf_primitive.h"
 
@@ -49,7 +51,7 @@ class SceneReader {
         }
         if (!(scene_.bounds_min.x <= scene_.bounds_max.x))
             scene_.bounds_min = scene_.bounds_max = glm::dvec3(0.0);
-        readMaterials(root_, model_, used_materials_, scene_);
+        readMaterials(root_, model_, used_materials_, options_.limits.image_texels, scene_);
         fillMissingUv();
         if (options_.progress) options_.progress(1.0);
     }
@@ -108,10 +110,11 @@ class SceneReader {
 
     void countPrimitive(int node, const PrimitiveSize& size) {
         vertex_count_ += size.vertices;
-        if (scene_.triangle_count + size.triangles > kMaxTriangles || vertex_count_ > kMaxVertices)
+        const LoadLimits& limits = options_.limits;
+        if (scene_.triangle_count + size.triangles > limits.triangles || vertex_count_ > limits.vertices)
             throw FailureError(nodeName(node),
                                fmt::format("the scene has more than {} triangles or {} vertices",
-                                           kMaxTriangles, kMaxVertices));
+                                           limits.triangles, limits.vertices));
         if (size.left_over != 0) countIgnored(scene_, "vertices of incomplete triangles", size.left_over);
     }
 
@@ -181,8 +184,11 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
     Scene scene;
     scene.source = document.source;
     scene.ignored = listIgnored(document.root);
-    tinygltf::Model model = readModel(document);
     const GltfElement root(document.root, document.source + ":");
+    const std::vector<bool> has_data = checkBuffers(root, document);
+    tinygltf::Model model = readModel(document, has_data);
+    unpackMeshopt(root, has_data, model, scene);
+    unpackDraco(root, model);
     if (options.time) playAnimation(root, options.animation, *options.time, model, scene);
     SceneReader(root, model, usesExtension(document.root, "KHR_mesh_quantization"), options, scene).read();
     return scene;

@@ -164,7 +164,7 @@ TEST(DecodeImage, SrgbCurveHasItsPublishedConstants) {
 
 Image decode(const std::string& bytes) {
     return decodeImage({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
-                       ColorEncoding::kSrgb, "test");
+                       ColorEncoding::kSrgb, std::uint64_t(1) << 26, "test");
 }
 
 TEST(DecodeImage, GreyAlphaAndSixteenBits) {

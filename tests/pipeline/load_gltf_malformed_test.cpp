@@ -156,7 +156,7 @@ const std::vector<Malformed>& table() {
              [](json& j) { j["bufferViews"][0]["byteStride"] = 6; }),
         root("accessors[0]: has elements of 12 bytes",
              [](json& j) { j["bufferViews"][0]["byteStride"] = 8; }),
-        root("buffers[0]: has no uri",
+        root("accessors[0]: its buffer has no uri",
              [](json& j) {
                  j["buffers"] = {{{"byteLength", 36}}};
              }),
