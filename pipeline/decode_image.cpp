@@ -8,9 +8,9 @@
 #include <limits>
 #include <string_view>
 
+#include "pipeline/decode_webp.h"
 #include "pipeline/error.h"
 #include "pipeline/png_chunks.h"
-#include "pipeline/webp_size.h"
 
 namespace edgewise {
 namespace {
@@ -21,7 +21,8 @@ bool hasAt(std::span<const std::uint8_t> bytes, std::size_t at, std::string_view
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// OpenImageIO's reader. Nothing but the formats of glTF and EXT_texture_webp gets that far.
+/// Which of the formats it is, as OpenImageIO calls them. Nothing but the formats of glTF and
+/// EXT_texture_webp gets that far.
 const char* readerName(std::span<const std::uint8_t> bytes, const std::string& what) {
     if (hasAt(bytes, 0, "\x89PNG\r\n\x1a\n")) return "png";
     if (hasAt(bytes, 0, "\xff\xd8\xff")) return "jpeg";
@@ -110,15 +111,21 @@ std::vector<float> linearTable(double largest, ColorEncoding encoding) {
     return table;
 }
 
-/// The bytes the decoder gets, once what it would trip over or allocate for nothing is ruled out.
-std::vector<std::uint8_t> vetted(std::string_view name, std::span<const std::uint8_t> bytes,
-                                 const SizeLimits& limits, const std::string& what) {
-    if (name == "png") return pixelChunks(bytes, what);
-    if (name == "webp") {
-        const WebpSize size = webpSize(bytes, what);
-        needSize(size.width, size.height, limits, what);
-    }
-    return {bytes.begin(), bytes.end()};
+Samples readWebp(std::span<const std::uint8_t> bytes, const SizeLimits& limits, const std::string& what) {
+    const WebpPixels pixels = decodeWebp(
+        bytes, [&](std::uint64_t width, std::uint64_t height) { needSize(width, height, limits, what); },
+        what);
+    Samples samples{pixels.width, pixels.height, 4, 255.0, {}};
+    samples.values.assign(pixels.rgba.begin(), pixels.rgba.end());
+    return samples;
+}
+
+Samples readPicture(std::span<const std::uint8_t> bytes, std::uint64_t max_texels, const std::string& what) {
+    const std::string_view name = readerName(bytes, what);
+    const SizeLimits limits{max_texels, bytes.size() * texelsPerByte(name)};
+    if (name == "webp") return readWebp(bytes, limits, what);
+    if (name == "png") return readSamples("png", pixelChunks(bytes, what), limits, what);
+    return readSamples("jpeg", {bytes.begin(), bytes.end()}, limits, what);
 }
 
 }  // namespace
@@ -129,9 +136,7 @@ double linearFromSrgb(double encoded) {
 
 Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, std::uint64_t max_texels,
                   const std::string& what) {
-    const char* const name = readerName(bytes, what);
-    const SizeLimits limits{max_texels, bytes.size() * texelsPerByte(name)};
-    const Samples samples = readSamples(name, vetted(name, bytes, limits, what), limits, what);
+    const Samples samples = readPicture(bytes, max_texels, what);
     const std::vector<float> linear = linearTable(samples.largest, encoding);
     const auto channels = static_cast<std::size_t>(samples.channels);
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;

@@ -46,8 +46,7 @@ bool allFinite(const std::vector<Vector>& values) {
 
 bool fits(const TextureUse& use, const Geometry& geometry, const Scene& scene) {
     if (!use.present()) return true;
-    return use.texture < scene.textures.size() &&
-           scene.textures[use.texture].image < scene.images.size() &&
+    return use.texture < scene.textures.size() && scene.textures[use.texture].image < scene.images.size() &&
            geometry.uv[static_cast<std::size_t>(use.uv)].size() == geometry.position_world.size();
 }
 
@@ -57,13 +56,14 @@ std::string checkGeometry(const Geometry& g, const Scene& scene) {
         for (const std::uint32_t vertex : triangle)
             if (vertex >= vertices) return "a triangle's vertex is out of range";
     if (!allFinite(g.position_world) || !allFinite(g.position_file)) return "a position is not finite";
-    if (!allFinite(g.uv[0]) || !allFinite(g.uv[1]) || !allFinite(g.color)) return "an attribute is not finite";
+    if (!allFinite(g.uv[0]) || !allFinite(g.uv[1]) || !allFinite(g.color))
+        return "an attribute is not finite";
     for (const std::size_t size : {g.normal_world.size(), g.tangent_world.size(), g.color.size()})
         if (size != 0 && size != vertices) return "an attribute has another count than the positions";
     if (g.material >= scene.materials.size()) return "a material is out of range";
     const Material& m = scene.materials[g.material];
-    for (const TextureUse* use : {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map,
-                                  &m.occlusion_map, &m.emissive_map})
+    for (const TextureUse* use :
+         {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map})
         if (!fits(*use, g, scene)) return "a texture, image or its coordinates are missing";
     return {};
 }
@@ -77,7 +77,8 @@ std::string checkScene(const Scene& scene) {
     }
     if (triangles != scene.triangle_count) return "triangles are not all counted";
     for (const Image& image : scene.images)
-        if (image.texels.size() != std::size_t(image.width) * std::size_t(image.height) || image.texels.empty())
+        if (image.texels.size() != std::size_t(image.width) * std::size_t(image.height) ||
+            image.texels.empty())
             return "an image has another size than its texels";
     return {};
 }

@@ -1,5 +1,5 @@
-// No bytes make the loader crash, hang, give a scene that is not finite, or throw anything but the two errors of
-// the world. Mutations know JSON, so that most inputs get past the parser.
+// No bytes make the loader crash, hang, give a scene that is not finite, or throw anything but the two errors
+// of the world. Mutations know JSON, so that most inputs get past the parser.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -19,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
 }
 
-/// Half of the mutations are libFuzzer's own on all bytes; a quarter change the JSON, a quarter the bytes after it.
+/// Half of the mutations are libFuzzer's own on all bytes; a quarter change the JSON, a quarter the bytes
+/// after it.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
     const auto* zero = static_cast<const std::uint8_t*>(std::memchr(data, 0, size));

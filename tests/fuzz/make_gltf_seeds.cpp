@@ -31,10 +31,12 @@ int main(int count, char** arguments) {
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
     const std::pair<const char*, TinyGltf> files[] = {
-        {"plain", withCamera()},           {"skin", skinnedGltf()},         {"morph", morphedGltf()},
-        {"animation", animatedGltf()},     {"instances", instancedGltf()},  {"lights", litGltf()},
-        {"textures", texturedGltf()},      {"sparse", sparseGltf()},        {"draco", dracoGltf()},
-        {"draco_sequential", dracoGltf(false)}, {"meshopt", meshoptGltf()}, {"meshopt_strip", meshoptGltf(true)}};
+        {"plain", withCamera()},        {"skin", skinnedGltf()},
+        {"morph", morphedGltf()},       {"animation", animatedGltf()},
+        {"instances", instancedGltf()}, {"lights", litGltf()},
+        {"textures", texturedGltf()},   {"sparse", sparseGltf()},
+        {"draco", dracoGltf()},         {"draco_sequential", dracoGltf(false)},
+        {"meshopt", meshoptGltf()},     {"meshopt_strip", meshoptGltf(true)}};
     for (const auto& [name, file] : files) writeFile(folder / name, split(file));
     writeFile(folder / "text", TinyGltf().asGltf());
     writeFile(folder / "binary", TinyGltf().asGlb());

@@ -22,8 +22,8 @@ std::size_t pick(witness::Dice& dice, std::size_t count) {
 }
 
 void mutateNumber(Json& value, witness::Dice& dice) {
-    const std::array<Json, 20> awkward{0, 1, 2, 3, 4, 5, 6, 7, 8, 16, 255, 256, 65535, 65536, 4294967295u, -1,
-                                       0.5, 1e300, -1e-300, 5126};
+    const std::array<Json, 20> awkward{0,   1,   2,     3,     4,           5,  6,   7,     8,       16,
+                                       255, 256, 65535, 65536, 4294967295u, -1, 0.5, 1e300, -1e-300, 5126};
     if (dice.integer(0, 2) == 0 && value.is_number_integer())
         value = value.get<std::int64_t>() / 2 + dice.integer(-2, 2);
     else

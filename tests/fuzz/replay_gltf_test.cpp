@@ -1,4 +1,5 @@
-// Every kept glTF input of the fuzzer, each of its truncations, and JSON mutations of it, in ordinary test runs.
+// Every kept glTF input of the fuzzer, each of its truncations, and JSON mutations of it, in ordinary test
+// runs.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -44,7 +44,8 @@ inline TinyGltf dracoGltf(bool edgebreaker = true) {
                                           cube[i][0].data(), cube[i][1].data(), cube[i][2].data());
     const auto mesh = builder.Finalize();
     draco::Encoder encoder;
-    encoder.SetEncodingMethod(edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING : draco::MESH_SEQUENTIAL_ENCODING);
+    encoder.SetEncodingMethod(edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING
+                                          : draco::MESH_SEQUENTIAL_ENCODING);
     draco::EncoderBuffer encoded;
     if (!mesh || !encoder.EncodeMeshToBuffer(*mesh, &encoded).ok())
         throw std::runtime_error("draco does not encode the cube");
@@ -92,8 +93,8 @@ inline std::string meshoptTriangles(const std::vector<std::uint32_t>& indices, s
     return bytes;
 }
 
-/// A square of two triangles by EXT_meshopt_compression: positions as attributes, indices as triangles, or, for a
-/// strip, as a sequence. Corners (0,0,0), (1,0,0), (0,1,0), (1,1,0).
+/// A square of two triangles by EXT_meshopt_compression: positions as attributes, indices as triangles, or,
+/// for a strip, as a sequence. Corners (0,0,0), (1,0,0), (0,1,0), (1,1,0).
 inline TinyGltf meshoptGltf(bool strip = false) {
     TinyGltf file;
     file.root["bufferViews"] = nlohmann::json::array();

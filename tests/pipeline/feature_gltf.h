@@ -1,5 +1,5 @@
-// One small file for each feature of glTF that takes more than a line: tests look at what becomes of them, the fuzzer
-// starts from them.
+// One small file for each feature of glTF that takes more than a line: tests look at what becomes of them,
+// the fuzzer starts from them.
 #pragma once
 
 #include "tests/pipeline/tiny_gltf_file.h"
@@ -8,8 +8,8 @@
 
 namespace edgewise::test {
 
-/// Joint 0 at (10, 0, 0); joint 1 below it, 2 up and a quarter turn about z, bound at (0, 2, 0). Weights of the
-/// three vertices: all on joint 0; a quarter and three quarters; all on joint 1 as (0, 2).
+/// Joint 0 at (10, 0, 0); joint 1 below it, 2 up and a quarter turn about z, bound at (0, 2, 0). Weights of
+/// the three vertices: all on joint 0; a quarter and three quarters; all on joint 1 as (0, 2).
 inline TinyGltf skinnedGltf() {
     TinyGltf file;
     const double h = 0.70710678118654752;
@@ -30,14 +30,14 @@ inline TinyGltf skinnedGltf() {
     return file;
 }
 
-/// Two targets, weights 0.5 and 0 by the mesh. Target 0 moves vertex 1 by (0, 0, 4) and tilts its normal by (2, 0, 0).
+/// Two targets, weights 0.5 and 0 by the mesh. Target 0 moves vertex 1 by (0, 0, 4) and tilts its normal by
+/// (2, 0, 0).
 inline TinyGltf morphedGltf() {
     TinyGltf file;
     file.primitive()["attributes"]["NORMAL"] = file.accessor<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
-    file.primitive()["targets"] = {
-        {{"POSITION", file.accessor<float>("VEC3", {0, 0, 0, 0, 0, 4, 0, 0, 0})},
-         {"NORMAL", file.accessor<float>("VEC3", {0, 0, 0, 2, 0, 0, 0, 0, 0})}},
-        {{"POSITION", file.accessor<float>("VEC3", {8, 0, 0, 8, 0, 0, 8, 0, 0})}}};
+    file.primitive()["targets"] = {{{"POSITION", file.accessor<float>("VEC3", {0, 0, 0, 0, 0, 4, 0, 0, 0})},
+                                    {"NORMAL", file.accessor<float>("VEC3", {0, 0, 0, 2, 0, 0, 0, 0, 0})}},
+                                   {{"POSITION", file.accessor<float>("VEC3", {8, 0, 0, 8, 0, 0, 8, 0, 0})}}};
     file.root["meshes"][0]["weights"] = {0.5, 0};
     file.root["nodes"][0]["translation"] = {1, 0, 0};
     return file;
@@ -79,8 +79,7 @@ inline TinyGltf instancedGltf() {
     file.root["nodes"][0]["translation"] = {100, 0, 0};
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", file.accessor<float>("VEC3", {0, 0, 0, 0, 10, 0, 0, 20, 0})},
-        {"ROTATION",
-         file.accessor<std::int8_t>("VEC4", {0, 0, 0, 127, 0, 0, 127, 0, 0, 0, 0, 127}, true)},
+        {"ROTATION", file.accessor<std::int8_t>("VEC4", {0, 0, 0, 127, 0, 0, 127, 0, 0, 0, 0, 127}, true)},
         {"SCALE", file.accessor<float>("VEC3", {1, 1, 1, 1, 1, 1, 2, 2, -2})}};
     return file;
 }
@@ -96,16 +95,15 @@ inline TinyGltf litGltf() {
          {"range", 12},
          {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
         {{"type", "directional"}}};
-    const auto light = [](int index) {
-        return nlohmann::json{{"KHR_lights_punctual", {{"light", index}}}};
-    };
+    const auto light = [](int index) { return nlohmann::json{{"KHR_lights_punctual", {{"light", index}}}}; };
     // About y by a quarter turn: -z becomes -x. Scales do not count.
-    file.root["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}, {"scale", {2, 2, 2}}, {"translation", {0, 1, 0}}},
-                          {{"translation", {1, 2, 3}},
-                           {"rotation", {0, 0.5, 0, 0.5}},
-                           {"scale", {3, 4, 5}},
-                           {"extensions", light(0)}},
-                          {{"extensions", light(1)}}};
+    file.root["nodes"] = {
+        {{"mesh", 0}, {"children", {1, 2}}, {"scale", {2, 2, 2}}, {"translation", {0, 1, 0}}},
+        {{"translation", {1, 2, 3}},
+         {"rotation", {0, 0.5, 0, 0.5}},
+         {"scale", {3, 4, 5}},
+         {"extensions", light(0)}},
+        {{"extensions", light(1)}}};
     return file;
 }
 
@@ -113,9 +111,9 @@ inline TinyGltf litGltf() {
 inline TinyGltf texturedGltf() {
     TinyGltf file;
     const std::string png = tinyPng(2, 1, 8, 2, std::string("\x80\x40\xff\x00\x00\x00", 6));
-    file.root["images"] = {{{"bufferView", file.view(png)}, {"mimeType", "image/png"}},
-                           {{"bufferView", file.view(tinyWebp(3, 2, {255, 0x80, 0x40, 0x20}))},
-                            {"mimeType", "image/webp"}}};
+    file.root["images"] = {
+        {{"bufferView", file.view(png)}, {"mimeType", "image/png"}},
+        {{"bufferView", file.view(tinyWebp(3, 2, {255, 0x80, 0x40, 0x20}))}, {"mimeType", "image/webp"}}};
     file.root["textures"] = {{{"source", 0}}, {{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
     file.root["materials"] = {
         {{"pbrMetallicRoughness",
@@ -128,7 +126,10 @@ inline TinyGltf texturedGltf() {
            {"scale", 0.5},
            {"extensions",
             {{"KHR_texture_transform",
-              {{"offset", {0, 1}}, {"rotation", 1.5707963267948966}, {"scale", {0.5, 0.5}}, {"texCoord", 1}}}}}}},
+              {{"offset", {0, 1}},
+               {"rotation", 1.5707963267948966},
+               {"scale", {0.5, 0.5}},
+               {"texCoord", 1}}}}}}},
          {"occlusionTexture", {{"index", 1}, {"strength", 0.125}}},
          {"emissiveTexture", {{"index", 1}}},
          {"emissiveFactor", {1, 0.5, 0}},

@@ -299,7 +299,8 @@ const std::vector<Malformed>& table() {
              f.root["accessors"][0]["sparse"].erase("indices");
          }},
         {"images[0]: is neither PNG, JPEG nor WebP", [](TinyGltf& f) { addTexture(f, "GIF89a"); }},
-        {"images[0]: is a WebP that is cut off", [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
+        {"images[0]: is a WebP that is damaged or cut off",
+         [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
         {"images[0]: ",
          [](TinyGltf& f) { addTexture(f, test::tinyPng(2, 2, 8, 2, std::string(12, 'x')).substr(0, 50)); }},
         {"images[0]: ", [](TinyGltf& f) { addTexture(f, "\xff\xd8\xff\xe0 not a picture"); }},

@@ -9,7 +9,8 @@ namespace edgewise::test {
 
 /// VP8L: every one of the five prefix codes has a single symbol, so that pixels take no bits at all.
 /// argb: alpha, red, green, blue.
-inline std::string tinyWebp(std::uint32_t width, std::uint32_t height, const std::array<std::uint8_t, 4>& argb) {
+inline std::string tinyWebp(std::uint32_t width, std::uint32_t height,
+                            const std::array<std::uint8_t, 4>& argb) {
     std::string bits;
     const auto put = [&](std::uint32_t value, int count) {
         for (int i = 0; i < count; ++i) bits += static_cast<char>(value >> i & 1);
