@@ -21,13 +21,12 @@ bool hasAt(std::span<const std::uint8_t> bytes, std::size_t at, std::string_view
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// Which of the formats it is, as OpenImageIO calls them. Nothing but the formats of glTF and
-/// EXT_texture_webp gets that far.
-const char* readerName(std::span<const std::uint8_t> bytes, const std::string& what) {
+/// Which of the formats it is, as OpenImageIO calls them; empty for any other.
+std::string_view formatName(std::span<const std::uint8_t> bytes) {
     if (hasAt(bytes, 0, "\x89PNG\r\n\x1a\n")) return "png";
     if (hasAt(bytes, 0, "\xff\xd8\xff")) return "jpeg";
     if (hasAt(bytes, 0, "RIFF") && hasAt(bytes, 8, "WEBP")) return "webp";
-    throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG, JPEG nor WebP");
+    return {};
 }
 
 struct Samples {
@@ -121,7 +120,9 @@ Samples readWebp(std::span<const std::uint8_t> bytes, const SizeLimits& limits, 
 }
 
 Samples readPicture(std::span<const std::uint8_t> bytes, std::uint64_t max_texels, const std::string& what) {
-    const std::string_view name = readerName(bytes, what);
+    const std::string_view name = formatName(bytes);
+    if (name.empty())
+        throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG, JPEG nor WebP");
     const SizeLimits limits{max_texels, bytes.size() * texelsPerByte(name)};
     if (name == "webp") return readWebp(bytes, limits, what);
     if (name == "png") return readSamples("png", pixelChunks(bytes, what), limits, what);
@@ -129,6 +130,10 @@ Samples readPicture(std::span<const std::uint8_t> bytes, std::uint64_t max_texel
 }
 
 }  // namespace
+
+bool isKnownPicture(std::span<const std::uint8_t> bytes) {
+    return !formatName(bytes).empty();
+}
 
 double linearFromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);

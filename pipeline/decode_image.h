@@ -12,6 +12,9 @@ namespace edgewise {
 /// sRGB-encoded [0, 1] to linear, the exact piecewise curve of IEC 61966-2-1.
 double linearFromSrgb(double encoded);
 
+/// True if the first bytes are a PNG's, a JPEG's or a WebP's.
+bool isKnownPicture(std::span<const std::uint8_t> bytes);
+
 /// What the numbers of a picture's colours mean; alpha is linear and straight either way.
 enum class ColorEncoding { kSrgb, kLinear };
 

@@ -101,7 +101,9 @@ void checkAttributes(const GltfElement& attributes, const GltfCounts& counts) {
 }
 
 void checkPrimitive(const GltfElement& primitive, const GltfCounts& counts) {
-    checkAttributes(primitive.object().need("attributes"), counts);
+    const GltfElement attributes = primitive.object().need("attributes");
+    checkAttributes(attributes, counts);
+    if (attributes.size() == 0) attributes.fail("is empty");
     primitive.referenceIf("indices", counts.accessors, "accessors");
     primitive.referenceIf("material", counts.materials, "materials");
     primitive.integerOr("mode", 4);
@@ -111,6 +113,7 @@ void checkPrimitive(const GltfElement& primitive, const GltfCounts& counts) {
 
 void checkMesh(const GltfElement& mesh, const GltfCounts& counts) {
     if (mesh.need("primitives").array().size() == 0) mesh.fail("has no primitives");
+    if (const auto weights = mesh.find("weights")) weights->numbers(weights->array().size());
     mesh.each("primitives", [&](const GltfElement& primitive) { checkPrimitive(primitive, counts); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -89,6 +90,26 @@ nlohmann::json parseJson(const std::string& source, std::string_view text) {
     }
 }
 
+void needRegularFile(const std::filesystem::path& path, const std::string& what) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(what, "no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(what, "is not a regular file");
+}
+
+/// Before all of a large file is read: does it start like a GLB of its size, or like a JSON object?
+void checkBeginning(const std::filesystem::path& path, const std::string& source) {
+    std::array<char, 256> bytes{};
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(bytes.data(), bytes.size());
+    const std::string_view found(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+    if (found.size() < 4) throw InputError(source, "is neither glTF nor GLB: shorter than 4 bytes");
+    if (found.starts_with("glTF")) return;
+    const std::size_t first = found.find_first_not_of(" \t\r\n", found.starts_with("\xef\xbb\xbf") ? 3 : 0);
+    if (first != std::string_view::npos && found[first] != '{' && found[first] != '[')
+        throw InputError(source, "is neither glTF nor GLB: it starts with neither { nor glTF");
+}
+
 }  // namespace
 
 int jsonDepth(std::string_view text, int limit) {
@@ -109,10 +130,8 @@ int jsonDepth(std::string_view text, int limit) {
 }
 
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& what) {
+    needRegularFile(path, what);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(what, "no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(what, "is not a regular file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) throw InputError(what, "cannot be read: " + error.message());
     if (size > kMaxFileBytes)
@@ -127,6 +146,8 @@ std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const
 GltfDocument readGltfDocument(const std::filesystem::path& path) {
     GltfDocument document;
     document.source = oneLine(path.string());
+    needRegularFile(path, document.source);
+    checkBeginning(path, document.source);
     const std::vector<std::uint8_t> file = readWholeFile(path, document.source);
     document.folder = std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".");
     if (file.size() < 4) throw InputError(document.source, "is neither glTF nor GLB: shorter than 4 bytes");

@@ -214,8 +214,8 @@ std::filesystem::path jailedPath(const std::filesystem::path& folder, std::strin
     if (relative.is_absolute()) throw InputError(where, fmt::format("\"{}\" is an absolute path", decoded));
     if (decoded.find_first_of(std::string("\\\0", 2)) != std::string::npos)
         throw InputError(where, fmt::format("\"{}\" has a backslash or a zero byte", decoded));
-    if (std::find(relative.begin(), relative.end(), "..") != relative.end() ||
-        !liesInFolder(folder / relative, folder))
+    const std::filesystem::path normal = relative.lexically_normal();
+    if ((!normal.empty() && *normal.begin() == "..") || !liesInFolder(folder / relative, folder))
         throw InputError(where, fmt::format("\"{}\" leaves the scene's folder", decoded));
     return folder / relative;
 }

@@ -50,6 +50,11 @@ std::optional<std::size_t> imageOf(const GltfElement& texture) {
     return std::nullopt;
 }
 
+/// Bytes of a format that glTF does not know; no bytes at all are another matter: a file that is not there.
+bool isForeign(const std::vector<unsigned char>& bytes) {
+    return !bytes.empty() && !isKnownPicture(bytes);
+}
+
 glm::dvec2 pairOr(const GltfElement& owner, const char* key, const glm::dvec2& absent) {
     const auto found = owner.find(key);
     return found ? glm::dvec2(found->at(0).number(), found->at(1).number()) : absent;
@@ -78,7 +83,7 @@ TextureUse GltfTextures::use(const GltfElement& owner, const char* key, ColorEnc
     const auto source = imageOf(root_.need("textures").at(index));
     if (uv > 1)
         countIgnored(scene_, "textures with texture coordinates beyond TEXCOORD_1");
-    else if (!source)
+    else if (!source || isForeign(model_.images[*source].image))
         countIgnored(scene_, "textures without an image of a known format");
     else
         use.texture = texture(index, *source, encoding);

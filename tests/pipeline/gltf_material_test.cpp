@@ -102,6 +102,17 @@ TEST(GltfMaterial, Ktx2GivesWayToItsFallback) {
     EXPECT_THROW(loadTiny(file), InputError);
 }
 
+TEST(GltfMaterial, PicturesOfOtherFormatsAreLeftOut) {
+    TinyGltf file = test::texturedGltf();
+    file.root["images"][1]["bufferView"] = file.view("GIF89a, whatever follows");
+    const Scene scene = loadTiny(file);
+    EXPECT_FALSE(scene.materials[0].normal_map.present());
+    EXPECT_TRUE(scene.materials[0].base_color_map.present());
+    ASSERT_EQ(scene.ignored.size(), 1u);
+    EXPECT_EQ(scene.ignored[0].what, "textures without an image of a known format");
+    EXPECT_EQ(scene.ignored[0].count, 3u);
+}
+
 TEST(GltfMaterial, TangentsFollowTheirNode) {
     TinyGltf file = test::texturedGltf();
     file.root["nodes"][0]["scale"] = {-2, 1, 1};

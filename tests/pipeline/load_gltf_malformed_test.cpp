@@ -45,6 +45,7 @@ const std::vector<Malformed>& table() {
         root("asset is missing", [](json& j) { j.erase("asset"); }),
         root("asset: version is missing", [](json& j) { j["asset"].erase("version"); }),
         root("asset.version: 1.0 is not supported", [](json& j) { j["asset"]["version"] = "1.0"; }),
+        root("asset.version: 3.0 is not supported", [](json& j) { j["asset"]["version"] = "3.0"; }),
         root("asset.version: \"two\"", [](json& j) { j["asset"]["version"] = "two"; }),
         root("asset.version: is a number", [](json& j) { j["asset"]["version"] = 2.0; }),
         root("asset.minVersion: 2.1", [](json& j) { j["asset"]["minVersion"] = "2.1"; }),
@@ -114,6 +115,40 @@ const std::vector<Malformed>& table() {
              [](json& j) {
                  j["nodes"][0]["scale"] = {1.7e308, 1, 1};
                  j["nodes"][0]["translation"] = {1.7e308, 0, 0};
+             }),
+        root("extensionsRequired[0]: the file requires the extension KHR_texture_basisu",
+             [](json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; }),
+        root("extensionsRequired[0]: the file requires the extension KHR_materials_transmission",
+             [](json& j) { j["extensionsRequired"] = {"KHR_materials_transmission"}; }),
+        root("meshes[0].primitives[0].attributes: is empty",
+             [](json& j) { j["meshes"][0]["primitives"][0]["attributes"] = json::object(); }),
+        root("nodes[0].weights[0]: is a string", [](json& j) { j["nodes"][0]["weights"] = {"1"}; }),
+        root("meshes[0].weights: is a number", [](json& j) { j["meshes"][0]["weights"] = 1; }),
+        root("animations[0].channels[0].sampler: 0 is out of range",
+             [](json& j) {
+                 j["animations"] = {{{"channels", {{{"sampler", 0}}}}}};
+             }),
+        root("animations[0].channels[0].target.node: 7 is out of range",
+             [](json& j) {
+                 j["animations"] = {
+                     {{"samplers", {{{"input", 0}, {"output", 0}}}},
+                      {"channels", {{{"sampler", 0}, {"target", {{"node", 7}, {"path", "scale"}}}}}}}};
+             }),
+        root("animations[0].samplers[0].input: 5 is out of range",
+             [](json& j) {
+                 j["animations"] = {{{"samplers", {{{"input", 5}, {"output", 0}}}}}};
+             }),
+        root("materials[0].pbrMetallicRoughness.metallicFactor: 1.5 is not in [0, 1]",
+             [](json& j) {
+                 j["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}}}}};
+             }),
+        root("materials[0].extensions.KHR_materials_emissive_strength.emissiveStrength: -1 is negative",
+             [](json& j) {
+                 j["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = -1;
+             }),
+        root("materials[0].extensions: is a number",
+             [](json& j) {
+                 j["materials"] = {{{"extensions", 3}}};
              }),
         root("meshes[0]: primitives is missing", [](json& j) { j["meshes"][0].erase("primitives"); }),
         root("meshes[0]: has no primitives", [](json& j) { j["meshes"][0]["primitives"] = json::array(); }),
@@ -298,7 +333,13 @@ const std::vector<Malformed>& table() {
              addSparse(f, {0});
              f.root["accessors"][0]["sparse"].erase("indices");
          }},
-        {"images[0]: is neither PNG, JPEG nor WebP", [](TinyGltf& f) { addTexture(f, "GIF89a"); }},
+        {"bufferViews[1]: ends at byte",
+         [](TinyGltf& f) {
+             addTexture(f, test::tinyPng(1, 1, 8, 2, "abc"));
+             f.root["bufferViews"][1]["byteLength"] = 100000;
+         }},
+        {"images[0]: 60000 x 1000 pixels are more than its bytes hold",
+         [](TinyGltf& f) { addTexture(f, test::tinyPng(60000, 1000, 8, 0, "")); }},
         {"images[0]: is a WebP that is damaged or cut off",
          [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
         {"images[0]: ",
