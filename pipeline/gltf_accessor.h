@@ -27,7 +27,7 @@ struct AccessorNumbers {
 };
 
 /// More elements than this without stored bytes (an accessor without a buffer view: zeros, and what its
-/// sparse part replaces) are refused: 128 MiB at most.
+/// sparse part replaces) are refused, as are more such vertices in a scene: 128 MiB at most.
 inline constexpr std::uint64_t kMaxUnbackedElements = std::uint64_t(1) << 20;
 
 /// Any accessor but a matrix of fewer than 4 rows. FailureError past kMaxUnbackedElements. Throws InputError

@@ -41,19 +41,19 @@ Chunk readChunk(const std::string& source, Bytes file, std::size_t offset, int i
     return {readUint32(file, offset + 4), file.subspan(offset + 8, length), offset + 8 + length};
 }
 
-void checkGlbHeader(const std::string& source, Bytes file) {
+void checkGlbHeader(const std::string& source, Bytes file, std::uint64_t file_size) {
     const std::string where = source + ": GLB header";
     if (file.size() < 12) throw InputError(where, "the file is shorter than 12 bytes");
     if (readUint32(file, 4) != 2)
         throw InputError(where, fmt::format("version {} is not supported, only 2", readUint32(file, 4)));
-    if (readUint32(file, 8) != file.size())
+    if (readUint32(file, 8) != file_size)
         throw InputError(where,
-                         fmt::format("says {} bytes, the file has {}", readUint32(file, 8), file.size()));
+                         fmt::format("says {} bytes, the file has {}", readUint32(file, 8), file_size));
 }
 
 /// Chunks after the binary one belong to extensions and are skipped, as the specification asks.
 std::string_view splitGlb(GltfDocument& document, Bytes file) {
-    checkGlbHeader(document.source, file);
+    checkGlbHeader(document.source, file, file.size());
     const Chunk json_chunk = readChunk(document.source, file, 12, 0);
     if (json_chunk.type != kJsonChunk)
         throw InputError(document.source + ": GLB chunk 0",
@@ -104,7 +104,10 @@ void checkBeginning(const std::filesystem::path& path, const std::string& source
     stream.read(bytes.data(), bytes.size());
     const std::string_view found(bytes.data(), static_cast<std::size_t>(stream.gcount()));
     if (found.size() < 4) throw InputError(source, "is neither glTF nor GLB: shorter than 4 bytes");
-    if (found.starts_with("glTF")) return;
+    if (found.starts_with("glTF")) {
+        const auto* begin = reinterpret_cast<const std::uint8_t*>(found.data());
+        return checkGlbHeader(source, {begin, found.size()}, std::filesystem::file_size(path));
+    }
     const std::size_t first = found.find_first_not_of(" \t\r\n", found.starts_with("\xef\xbb\xbf") ? 3 : 0);
     if (first != std::string_view::npos && found[first] != '{' && found[first] != '[')
         throw InputError(source, "is neither glTF nor GLB: it starts with neither { nor glTF");

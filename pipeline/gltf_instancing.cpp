@@ -56,6 +56,16 @@ void checkInstancing(const GltfElement& node, const GltfCounts& counts) {
         attributes.need(name.c_str()).reference(counts.accessors, "accessors");
 }
 
+std::size_t instanceTotal(const GltfElement& root, std::size_t node) {
+    const auto instancing = root.need("nodes").at(node).extension(kExtension);
+    if (!instancing) return 1;
+    const GltfElement attributes = instancing->need("attributes");
+    for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"})
+        if (const auto reference = attributes.find(key))
+            return root.need("accessors").at(reference->integer()).need("count").integer();
+    return 0;
+}
+
 std::vector<glm::dmat4> instanceTransforms(const GltfElement& root, const tinygltf::Model& model,
                                            std::size_t node, const std::string& source) {
     const auto instancing = root.need("nodes").at(node).extension(kExtension);
@@ -66,14 +76,14 @@ std::vector<glm::dmat4> instanceTransforms(const GltfElement& root, const tinygl
     };
     const auto translation = read("TRANSLATION", TINYGLTF_TYPE_VEC3);
     const auto rotation = read("ROTATION", TINYGLTF_TYPE_VEC4), scale = read("SCALE", TINYGLTF_TYPE_VEC3);
-    std::vector<glm::dmat4> transforms(instanceCount(attributes, {&translation, &rotation, &scale}));
-    for (std::size_t i = 0; i < transforms.size(); ++i) {
+    std::vector<glm::dmat4> transforms;
+    for (std::size_t i = 0; i < instanceCount(attributes, {&translation, &rotation, &scale}); ++i) {
         tinygltf::Node instance;
         instance.translation = elementOf(translation, i);
         instance.rotation = elementOf(rotation, i);
         instance.scale = elementOf(scale, i);
-        transforms[i] = localTransform(instance);
-        if (!isFinite(transforms[i]))
+        transforms.push_back(localTransform(instance));
+        if (!isFinite(transforms.back()))
             attributes.fail(fmt::format("instance {} has the rotation 0, 0, 0, 0", i));
     }
     return transforms;

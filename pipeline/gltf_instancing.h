@@ -18,6 +18,9 @@ struct GltfCounts;
 /// Checks a node's instancing, if it has any: a part of checkGltf.
 void checkInstancing(const GltfElement& node, const GltfCounts& counts);
 
+/// How many copies of its mesh nodes[node] asks for, by the count of its first attribute.
+std::size_t instanceTotal(const GltfElement& root, std::size_t node);
+
 /// For each instance of nodes[node], in order, its translation * rotation * scale; one identity for a node
 /// without instancing. Throws InputError naming the node: formats, differing counts, a rotation of zero.
 std::vector<glm::dmat4> instanceTransforms(const GltfElement& root, const tinygltf::Model& model,

@@ -162,6 +162,8 @@ bool drawsTriangles(const tinygltf::Primitive& primitive) {
 PrimitiveSize primitiveSize(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     PrimitiveSize size;
     size.vertices = vertexCount(model, primitive);
+    const auto positions = static_cast<std::size_t>(primitive.attributes.at("POSITION"));
+    size.has_bytes = model.accessors[positions].bufferView >= 0;
     const std::size_t count = primitive.indices < 0
                                   ? size.vertices
                                   : model.accessors[static_cast<std::size_t>(primitive.indices)].count;

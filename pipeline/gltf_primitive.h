@@ -27,6 +27,7 @@ bool drawsTriangles(const tinygltf::Primitive& primitive);
 
 struct PrimitiveSize {
     std::size_t vertices = 0, triangles = 0;
+    bool has_bytes = true;      ///< false: positions without a buffer view, zeros but for a sparse part
     std::size_t left_over = 0;  ///< indices or vertices at the end that make no whole triangle
 };
 PrimitiveSize primitiveSize(const tinygltf::Model& model, const tinygltf::Primitive& primitive);

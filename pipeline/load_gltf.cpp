@@ -8,6 +8,7 @@
 #include <map>
 
 #include "pipeline/error.h"
+#include "pipeline/gltf_accessor.h"
 #include "pipeline/gltf_animation.h"
 #include "pipeline/gltf_camera.h"
 #include "pipeline/gltf_check.h"
@@ -44,6 +45,7 @@ class SceneReader {
         scene_.bounds_min = glm::dvec3(std::numeric_limits<double>::infinity());
         scene_.bounds_max = -scene_.bounds_min;
         placed_ = depthFirstNodes(model_, options_.scene, scene_.source);
+        for (const PlacedNode& placed : placed_) countNode(placed.node);
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             readNode(placed_[i]);
             if (options_.progress)
@@ -90,7 +92,6 @@ class SceneReader {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         const tinygltf::Primitive& from = mesh.primitives[static_cast<std::size_t>(primitive)];
-        countPrimitive(placed.node, primitiveSize(model_, from));
         LocalPrimitive made = readPrimitive({model_, scene_.source, quantized_, node.mesh, primitive,
                                              node.weights.empty() ? mesh.weights : node.weights});
         Geometry& geometry = made.geometry;
@@ -108,14 +109,33 @@ class SceneReader {
         if (!geometry.triangles.empty()) scene_.geometry.push_back(std::move(geometry));
     }
 
-    void countPrimitive(int node, const PrimitiveSize& size) {
-        vertex_count_ += size.vertices;
+    /// Before anything is made room for: small files may ask for a lot by repeating it.
+    void countNode(int index) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+        if (node.mesh < 0) return;
+        const std::size_t copies = node.skin >= 0 ? 1 : instanceTotal(root_, static_cast<std::size_t>(index));
+        for (const tinygltf::Primitive& primitive :
+             model_.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+            if (drawsTriangles(primitive)) countPrimitive(index, primitive, copies);
+    }
+
+    /// Counts are below 2^32 each: no overflow before the limits stop it.
+    void countPrimitive(int node, const tinygltf::Primitive& primitive, std::size_t copies) {
+        const PrimitiveSize size = primitiveSize(model_, primitive);
+        vertex_count_ += size.vertices * copies;
+        triangle_count_ += size.triangles * copies;
+        if (!size.has_bytes) unbacked_count_ += size.vertices * copies;
         const LoadLimits& limits = options_.limits;
-        if (scene_.triangle_count + size.triangles > limits.triangles || vertex_count_ > limits.vertices)
+        if (triangle_count_ > limits.triangles || vertex_count_ > limits.vertices)
             throw FailureError(nodeName(node),
                                fmt::format("the scene has more than {} triangles or {} vertices",
                                            limits.triangles, limits.vertices));
-        if (size.left_over != 0) countIgnored(scene_, "vertices of incomplete triangles", size.left_over);
+        if (unbacked_count_ > kMaxUnbackedElements)
+            throw FailureError(
+                nodeName(node),
+                fmt::format("the scene has more than {} vertices without bytes", kMaxUnbackedElements));
+        if (size.left_over != 0)
+            countIgnored(scene_, "vertices of incomplete triangles", size.left_over * copies);
     }
 
     /// A skin replaces the node's own transform.
@@ -166,7 +186,7 @@ class SceneReader {
     std::vector<PlacedNode> placed_;
     std::vector<glm::dmat4> world_of_node_;
     std::map<std::size_t, std::vector<glm::dmat4>> joints_of_;
-    std::size_t vertex_count_ = 0;
+    std::uint64_t vertex_count_ = 0, triangle_count_ = 0, unbacked_count_ = 0;
 };
 
 bool usesExtension(const nlohmann::json& root, const char* name) {

@@ -1,6 +1,10 @@
 // Writes what load_gltf_fuzz starts from, one small file a feature: make_gltf_seeds FOLDER
+#include <OpenImageIO/imageio.h>
+
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "tests/pipeline/compressed_gltf.h"
 #include "tests/pipeline/feature_gltf.h"
@@ -23,6 +27,24 @@ TinyGltf withCamera() {
     return file;
 }
 
+std::string jpeg() {
+    const edgewise::test::TempFolder folder;
+    const std::string path = (folder / "a.jpg").string();
+    const std::vector<std::uint8_t> pixels(8 * 8 * 3, 100);
+    const auto output = OIIO::ImageOutput::create(path);
+    output->open(path, OIIO::ImageSpec(8, 8, 3, OIIO::TypeDesc::UINT8));
+    output->write_image(OIIO::TypeDesc::UINT8, pixels.data());
+    output->close();
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TinyGltf withJpeg() {
+    TinyGltf file = edgewise::test::texturedGltf();
+    file.root["images"][0] = {{"bufferView", file.view(jpeg())}, {"mimeType", "image/jpeg"}};
+    return file;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -30,13 +52,19 @@ int main(int count, char** arguments) {
     using namespace edgewise::test;
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
-    const std::pair<const char*, TinyGltf> files[] = {
-        {"plain", withCamera()},        {"skin", skinnedGltf()},
-        {"morph", morphedGltf()},       {"animation", animatedGltf()},
-        {"instances", instancedGltf()}, {"lights", litGltf()},
-        {"textures", texturedGltf()},   {"sparse", sparseGltf()},
-        {"draco", dracoGltf()},         {"draco_sequential", dracoGltf(false)},
-        {"meshopt", meshoptGltf()},     {"meshopt_strip", meshoptGltf(true)}};
+    const std::pair<const char*, TinyGltf> files[] = {{"plain", withCamera()},
+                                                      {"jpeg", withJpeg()},
+                                                      {"skin", skinnedGltf()},
+                                                      {"morph", morphedGltf()},
+                                                      {"animation", animatedGltf()},
+                                                      {"instances", instancedGltf()},
+                                                      {"lights", litGltf()},
+                                                      {"textures", texturedGltf()},
+                                                      {"sparse", sparseGltf()},
+                                                      {"draco", dracoGltf()},
+                                                      {"draco_sequential", dracoGltf(false)},
+                                                      {"meshopt", meshoptGltf()},
+                                                      {"meshopt_strip", meshoptGltf(true)}};
     for (const auto& [name, file] : files) writeFile(folder / name, split(file));
     writeFile(folder / "text", TinyGltf().asGltf());
     writeFile(folder / "binary", TinyGltf().asGlb());

@@ -83,12 +83,25 @@ TEST(GltfDocument, UrisMayWanderInsideTheFolder) {
 }
 
 TEST(GltfDocument, LimitsAreFailuresNotInputErrors) {
-    const TempFolder folder;
-    TinyGltf file;
-    file.root["accessors"][0]["count"] = 4'000'000'000u;
-    file.root["accessors"][0].erase("bufferView");
-    test::writeFile(folder / "a.gltf", file.asGltf());
-    EXPECT_THROW(loadGltf(folder / "a.gltf"), FailureError);
+    const auto load = [](const TinyGltf& file) {
+        const TempFolder folder;
+        test::writeFile(folder / "a.gltf", file.asGltf());
+        loadGltf(folder / "a.gltf");
+    };
+    TinyGltf zeros;
+    zeros.root["accessors"][0]["count"] = 4'000'000'000u;
+    zeros.root["accessors"][0].erase("bufferView");
+    EXPECT_THROW(load(zeros), FailureError);
+    TinyGltf repeated;
+    repeated.root["accessors"][0]["count"] = 1'000'000;
+    repeated.root["accessors"][0].erase("bufferView");
+    repeated.root["meshes"][0]["primitives"] = std::vector<nlohmann::json>(1000, repeated.primitive());
+    EXPECT_THROW(load(repeated), FailureError);
+    TinyGltf instanced;
+    instanced.root["accessors"].push_back(
+        {{"componentType", 5126}, {"count", 4'000'000'000u}, {"type", "VEC3"}});
+    instanced.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = 1;
+    EXPECT_THROW(load(instanced), FailureError);
 }
 
 }  // namespace
