@@ -342,8 +342,10 @@ const std::vector<Malformed>& table() {
          [](TinyGltf& f) { addTexture(f, test::tinyPng(60000, 1000, 8, 0, "")); }},
         {"images[0]: is a WebP that is damaged or cut off",
          [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
-        {"images[0]: ",
+        {"images[0]: is a PNG that is cut off",
          [](TinyGltf& f) { addTexture(f, test::tinyPng(2, 2, 8, 2, std::string(12, 'x')).substr(0, 50)); }},
+        {"images[0]: is a damaged PNG: ",
+         [](TinyGltf& f) { addTexture(f, test::tinyPng(2, 2, 8, 2, std::string(4, 'x'))); }},
         {"images[0]: ", [](TinyGltf& f) { addTexture(f, "\xff\xd8\xff\xe0 not a picture"); }},
         {"images[0] gone.png: cannot be read",
          [](TinyGltf& f) {
