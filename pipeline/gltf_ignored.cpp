@@ -41,6 +41,13 @@ void addMaterials(const Json& root, std::vector<Ignored>& list) {
         }));
 }
 
+/// Beyond positions, normals and tangents.
+bool changesLooks(const Json& target) {
+    for (const auto& [name, accessor] : target.items())
+        if (name.starts_with("TEXCOORD_") || name.starts_with("COLOR_")) return true;
+    return false;
+}
+
 void addPrimitives(const Json& root, std::vector<Ignored>& list) {
     constexpr std::array kinds{"point primitives", "line primitives", "line primitives", "line primitives"};
     for (const Json& mesh : section(root, "meshes"))
@@ -52,6 +59,8 @@ void addPrimitives(const Json& root, std::vector<Ignored>& list) {
                 add(list, "primitives of an unknown mode", 1);
             else if (!primitive["attributes"].contains("POSITION"))
                 add(list, "primitives without positions", 1);
+            add(list, "primitives whose morph targets change texture coordinates or colours",
+                countIf(section(primitive, "targets"), changesLooks) > 0);
             if (primitive["attributes"].contains("COLOR_1")) add(list, "primitives with a second colour", 1);
         }
 }

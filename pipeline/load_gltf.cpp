@@ -64,44 +64,49 @@ class SceneReader {
         addLight(root_, placed, scene_);
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
         if (node.mesh < 0) return;
-        if (node.skin >= 0) return readSkinned(placed);
-        const auto instances =
-            instanceTransforms(root_, model_, static_cast<std::size_t>(placed.node), scene_.source);
-        for (std::size_t i = 0; i < instances.size(); ++i)
-            readMesh({placed.node, placed.world_from_node * instances[i]}, static_cast<std::uint32_t>(i));
+        std::vector<LocalPrimitive> locals = readMesh(node);
+        const auto instances = instancesOf(placed.node);
+        for (std::size_t i = 0; i < instances.size(); ++i) {
+            const PlacedNode instance{placed.node, placed.world_from_node * instances[i]};
+            for (LocalPrimitive& local : locals)
+                addPrimitive(instance, static_cast<std::uint32_t>(i),
+                             i + 1 < instances.size() ? local : std::move(local));
+        }
     }
 
-    void readSkinned(const PlacedNode& placed) {
-        if (root_.need("nodes")
-                .at(static_cast<std::size_t>(placed.node))
-                .extension("EXT_mesh_gpu_instancing"))
+    /// A skin says where its vertices are, whatever the instance.
+    std::vector<glm::dmat4> instancesOf(int index) {
+        const auto i = static_cast<std::size_t>(index);
+        if (model_.nodes[i].skin < 0) return instanceTransforms(root_, model_, i, scene_.source);
+        if (root_.need("nodes").at(i).extension("EXT_mesh_gpu_instancing"))
             countIgnored(scene_, "instances of a skinned node");
-        readMesh(placed, 0);
+        return {glm::dmat4(1.0)};
     }
 
-    void readMesh(const PlacedNode& placed, std::uint32_t instance) {
-        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-        const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            if (drawsTriangles(primitives[i])) addPrimitive(placed, instance, static_cast<int>(i));
+    std::vector<LocalPrimitive> readMesh(const tinygltf::Node& node) {
+        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+        std::vector<LocalPrimitive> locals;
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const tinygltf::Primitive& from = mesh.primitives[i];
+            if (!drawsTriangles(from)) continue;
+            locals.push_back(readPrimitive({model_, scene_.source, quantized_, node.mesh, static_cast<int>(i),
+                                            node.weights.empty() ? mesh.weights : node.weights}));
+            Geometry& geometry = locals.back().geometry;
+            geometry.mesh = static_cast<std::uint32_t>(node.mesh);
+            geometry.primitive = static_cast<std::uint32_t>(i);
+            geometry.material = static_cast<std::uint32_t>(
+                from.material < 0 ? material_count_ : static_cast<std::size_t>(from.material));
+            if (from.material >= 0) used_materials_[geometry.material] = true;
+        }
+        return locals;
     }
 
     std::string nodeName(int index) const { return fmt::format("{}: nodes[{}]", scene_.source, index); }
 
-    void addPrimitive(const PlacedNode& placed, std::uint32_t instance, int primitive) {
-        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
-        const tinygltf::Primitive& from = mesh.primitives[static_cast<std::size_t>(primitive)];
-        LocalPrimitive made = readPrimitive({model_, scene_.source, quantized_, node.mesh, primitive,
-                                             node.weights.empty() ? mesh.weights : node.weights});
+    void addPrimitive(const PlacedNode& placed, std::uint32_t instance, LocalPrimitive made) {
         Geometry& geometry = made.geometry;
         geometry.node = static_cast<std::uint32_t>(placed.node);
         geometry.instance = instance;
-        geometry.mesh = static_cast<std::uint32_t>(node.mesh);
-        geometry.primitive = static_cast<std::uint32_t>(primitive);
-        geometry.material = static_cast<std::uint32_t>(
-            from.material < 0 ? material_count_ : static_cast<std::size_t>(from.material));
-        if (from.material >= 0) used_materials_[geometry.material] = true;
         geometry.first_triangle = static_cast<std::uint32_t>(scene_.triangle_count);
         scene_.triangle_count += geometry.triangles.size();
         place(made, placed);
