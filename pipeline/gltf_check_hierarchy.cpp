@@ -36,7 +36,7 @@ void checkNode(const GltfElement& node, const GltfCounts& counts) {
     node.referenceIf("mesh", counts.meshes, "meshes");
     node.referenceIf("camera", counts.cameras, "cameras");
     node.referenceIf("skin", counts.skins, "skins");
-    if (const auto weights = node.find("weights")) weights->numbers(weights->array().size());
+    if (const auto weights = node.find("weights")) node.moderatesIf("weights", weights->array().size());
     checkTransform(node);
     checkInstancing(node, counts);
 }

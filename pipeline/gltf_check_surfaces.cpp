@@ -36,9 +36,9 @@ void checkTexture(const GltfElement& texture, const GltfCounts& counts) {
 }
 
 void checkTextureTransform(const GltfElement& transform) {
-    for (const char* key : {"offset", "scale"})
-        if (const auto pair = transform.find(key)) pair->numbers(2);
-    transform.numberOr("rotation", 0.0);
+    transform.moderatesIf("offset", 2);
+    transform.moderatesIf("scale", 2);
+    transform.moderateIf("rotation");
     transform.integerOr("texCoord", 0);
 }
 
@@ -68,7 +68,7 @@ void checkUnitIf(const std::optional<GltfElement>& owner, const char* key) {
 }
 
 void checkNotNegative(const std::optional<GltfElement>& value) {
-    if (value && value->number() < 0.0) value->fail(fmt::format("{} is negative", value->number()));
+    if (value && value->moderate() < 0.0) value->fail(fmt::format("{} is negative", value->number()));
 }
 
 void checkMetallicRoughness(const GltfElement& pbr, const GltfCounts& counts) {
@@ -83,7 +83,7 @@ void checkMaterial(const GltfElement& material, const GltfCounts& counts) {
     if (const auto pbr = material.find("pbrMetallicRoughness")) checkMetallicRoughness(*pbr, counts);
     for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"})
         checkTextureInfo(material, texture, counts);
-    if (const auto normal = material.find("normalTexture")) normal->numberOr("scale", 1.0);
+    if (const auto normal = material.find("normalTexture")) normal->moderateIf("scale");
     checkUnitIf(material.find("occlusionTexture"), "strength");
     checkUnits(material, "emissiveFactor", 3);
     if (const auto emissive = material.extension("KHR_materials_emissive_strength"))
@@ -113,7 +113,7 @@ void checkPrimitive(const GltfElement& primitive, const GltfCounts& counts) {
 
 void checkMesh(const GltfElement& mesh, const GltfCounts& counts) {
     if (mesh.need("primitives").array().size() == 0) mesh.fail("has no primitives");
-    if (const auto weights = mesh.find("weights")) weights->numbers(weights->array().size());
+    if (const auto weights = mesh.find("weights")) mesh.moderatesIf("weights", weights->array().size());
     mesh.each("primitives", [&](const GltfElement& primitive) { checkPrimitive(primitive, counts); });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -66,6 +67,13 @@ class GltfElement {
         expect(value_->is_number(), "a number");
         return value_->get<double>();
     }
+    /// A number that float32 can hold: products of two such stay finite in double.
+    double moderate() const {
+        const double value = number();
+        if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+            fail(fmt::format("{} is beyond the range of a 32-bit float", value));
+        return value;
+    }
     /// A whole number in [low, high]. 3.0 is one too (the specification's wish); it is rewritten as 3.
     std::uint64_t integer(std::uint64_t low = 0, std::uint64_t high = kMaxGltfInteger) const {
         const double number_value = number();
@@ -100,6 +108,17 @@ class GltfElement {
         array();
         if (size() != count) fail(fmt::format("has {} numbers, not {}", size(), count));
         for (std::size_t i = 0; i < count; ++i) at(i).number();
+    }
+
+    void moderateIf(const char* key) const {
+        if (const auto found = find(key)) found->moderate();
+    }
+    /// `count` moderate numbers, if the key is there.
+    void moderatesIf(const char* key, std::size_t count) const {
+        const auto found = find(key);
+        if (!found) return;
+        found->numbers(count);
+        for (std::size_t i = 0; i < count; ++i) found->at(i).moderate();
     }
 
     std::uint64_t integerOr(const char* key, std::uint64_t absent) const {

@@ -33,11 +33,13 @@ void checkLight(const GltfElement& light) {
     light.object().need("type").string();
     if (const auto name = light.find("name")) name->string();
     if (const auto color = light.find("color")) {
-        color->numbers(3);
+        light.moderatesIf("color", 3);
         for (std::size_t i = 0; i < 3; ++i)
             if (!(color->at(i).number() >= 0.0))
                 color->at(i).fail(fmt::format("{} is negative", color->at(i).number()));
     }
+    light.moderateIf("intensity");
+    light.moderateIf("range");
     checkAtLeastZero(light, "intensity");
     if (const auto range = light.find("range"); range && !(range->number() > 0.0))
         range->fail(fmt::format("{} is not above 0", range->number()));

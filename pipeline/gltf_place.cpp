@@ -16,7 +16,7 @@ struct DirectionMap {
     double sign;  ///< of the bitangent, cross(normal, tangent) * sign: -1 under a mirror
 
     explicit DirectionMap(const glm::dmat4& m)
-        : normals(normalTransform(m)), tangents(m), sign(flipsWinding(m) ? -1.0 : 1.0) {}
+        : normals(normalTransform(m)), tangents(tangentTransform(m)), sign(flipsWinding(m) ? -1.0 : 1.0) {}
 };
 
 glm::dvec4 moved(const DirectionMap& map, const glm::dvec4& tangent) {

@@ -56,6 +56,7 @@ std::string checkGeometry(const Geometry& g, const Scene& scene) {
         for (const std::uint32_t vertex : triangle)
             if (vertex >= vertices) return "a triangle's vertex is out of range";
     if (!allFinite(g.position_world) || !allFinite(g.position_file)) return "a position is not finite";
+    if (!allFinite(g.normal_world) || !allFinite(g.tangent_world)) return "a direction is not finite";
     if (!allFinite(g.uv[0]) || !allFinite(g.uv[1]) || !allFinite(g.color))
         return "an attribute is not finite";
     for (const std::size_t size : {g.normal_world.size(), g.tangent_world.size(), g.color.size()})

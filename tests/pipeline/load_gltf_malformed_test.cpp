@@ -146,6 +146,11 @@ const std::vector<Malformed>& table() {
              [](json& j) {
                  j["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = -1;
              }),
+        root("materials[0].normalTexture.scale: 1e+300 is beyond the range of a 32-bit float",
+             [](json& j) {
+                 j["textures"] = {json::object()};
+                 j["materials"] = {{{"normalTexture", {{"index", 0}, {"scale", 1e300}}}}};
+             }),
         root("materials[0].extensions: is a number",
              [](json& j) {
                  j["materials"] = {{{"extensions", 3}}};
