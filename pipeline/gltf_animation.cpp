@@ -1,72 +1,19 @@
 #include "pipeline/gltf_animation.h"
 
 #include <tiny_gltf.h>
-#include <algorithm>
-#include <cmath>
 
 #include "pipeline/gltf_accessor.h"
 #include "pipeline/gltf_check.h"
 #include "pipeline/gltf_choice.h"
 #include "pipeline/gltf_ignored.h"
+#include "pipeline/gltf_keyframes.h"
 
 namespace edgewise {
 namespace {
 
 enum class Interpolation { kStep, kLinear, kCubicSpline };
 
-using Values = std::vector<double>;
-
-/// The keys around a time: the value lies `fraction` of the way from key `before` to key `after`.
-struct Moment {
-    std::size_t before = 0, after = 0;
-    double fraction = 0.0;
-    double seconds = 0.0;  ///< between the two keys
-};
-
-Moment momentAt(const Values& times, double time) {
-    const auto after = std::upper_bound(times.begin(), times.end(), time);
-    if (after == times.begin()) return {};
-    const auto k = static_cast<std::size_t>(after - times.begin()) - 1;
-    if (after == times.end()) return {k, k, 0.0, 0.0};
-    const double seconds = *after - times[k];
-    return {k, k + 1, (time - times[k]) / seconds, seconds};
-}
-
-double dot(const Values& a, const Values& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-}
-
-Values combined(double u, const Values& a, double v, const Values& b) {
-    Values sum(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i) sum[i] = u * a[i] + v * b[i];
-    return sum;
-}
-
-/// Divided by the largest part first: the squared length can neither overflow nor vanish. Zero stays zero.
-Values normalized(Values q) {
-    double largest = 0.0;
-    for (const double part : q) largest = std::max(largest, std::abs(part));
-    if (largest == 0.0) return q;
-    for (double& part : q) part /= largest;
-    const double length = std::sqrt(dot(q, q));
-    for (double& part : q) part /= length;
-    return q;
-}
-
-/// Below an angle of 2^-20 the arc's sine is the angle to a rounding, and its chord the arc.
-Values slerp(const Values& from, const Values& to, double fraction) {
-    const Values a = normalized(from), b = normalized(to);
-    const double cosine = dot(a, b), sign = cosine < 0.0 ? -1.0 : 1.0;
-    // The angle by its half's tangent, |b - a| / |b + a|: accurate for small ones, where the cosine is flat.
-    const Values apart = combined(sign, b, -1.0, a), along = combined(sign, b, 1.0, a);
-    const double angle = 2.0 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(along, along)));
-    if (angle < 0x1p-20) return combined(1.0 - fraction, a, sign * fraction, b);
-    const double sine = std::sin(angle);
-    return combined(std::sin((1.0 - fraction) * angle) / sine, a, sign * std::sin(fraction * angle) / sine,
-                    b);
-}
+using Values = KeyValues;
 
 /// One channel's sampler: keys, and `width` numbers a value.
 class Sampler {
@@ -137,12 +84,7 @@ class Sampler {
 
     Values spline(const Moment& m) const {
         if (m.before == m.after) return value(m.before, 1);
-        const double t = m.fraction, t2 = t * t, t3 = t2 * t;
-        const Values ends =
-            combined(2 * t3 - 3 * t2 + 1, value(m.before, 1), 3 * t2 - 2 * t3, value(m.after, 1));
-        const Values slopes = combined(m.seconds * (t3 - 2 * t2 + t), value(m.before, 2),
-                                       m.seconds * (t3 - t2), value(m.after, 0));
-        return combined(1.0, ends, 1.0, slopes);
+        return hermite(m, value(m.before, 1), value(m.before, 2), value(m.after, 0), value(m.after, 1));
     }
 
     const GltfElement& from_;
