@@ -88,9 +88,9 @@ struct ExactPlane {
 
 struct Candidate {
     std::uint64_t key = 0;
-    std::uint32_t node = 0, index = 0;
+    std::uint32_t node = 0, instance = 0, index = 0;
     std::uint32_t geometry = kNone, triangle = 0;  ///< geometry = kNone: no area
-    auto order() const { return std::tie(node, key, index); }
+    auto order() const { return std::tie(node, instance, key, index); }
 };
 
 /// Candidates of triangles [begin, end) of a geometry.
@@ -104,7 +104,7 @@ void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begi
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto triangle = static_cast<std::uint32_t>(begin + i);
         const std::uint32_t place = hasArea(corners[i]) ? geometry : kNone;
-        out[i] = {keys[i].value_or(0), g.node, g.first_triangle + triangle, place, triangle};
+        out[i] = {keys[i].value_or(0), g.node, g.instance, g.first_triangle + triangle, place, triangle};
     }
 }
 
@@ -143,7 +143,8 @@ void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<st
 std::vector<std::uint32_t> findLeaders(const Scene& scene, const std::vector<Candidate>& sorted) {
     std::vector<std::uint32_t> leader_of(scene.triangle_count, kNone);
     auto sameRun = [&](std::size_t i) {
-        return i > 0 && sorted[i].node == sorted[i - 1].node && sorted[i].key == sorted[i - 1].key;
+        return i > 0 && sorted[i].node == sorted[i - 1].node &&
+               sorted[i].instance == sorted[i - 1].instance && sorted[i].key == sorted[i - 1].key;
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sorted.size(), 1024), [&](const auto& range) {
         for (std::size_t begin = range.begin(); begin < range.end(); ++begin) {

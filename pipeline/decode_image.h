@@ -1,4 +1,4 @@
-// PNG and JPEG bytes to linear texels.
+// PNG, JPEG and WebP bytes to linear texels.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,19 @@
 
 namespace edgewise {
 
-/// A picture with more texels than this is refused (16 bytes each once decoded).
-inline constexpr std::uint64_t kMaxImageTexels = std::uint64_t(1) << 26;
-
 /// sRGB-encoded [0, 1] to linear, the exact piecewise curve of IEC 61966-2-1.
 double linearFromSrgb(double encoded);
 
-/// Decodes 8- and 16-bit PNG and JPEG whose colours are sRGB-encoded; alpha is linear and straight. Grey
-/// becomes RGB, a missing alpha 1. Colour profiles and orientation tags are ignored, as glTF asks. Throws
-/// InputError naming `what`; FailureError past kMaxImageTexels.
-Image decodeSrgbImage(std::span<const std::uint8_t> bytes, const std::string& what);
+/// True if the first bytes are a PNG's, a JPEG's or a WebP's.
+bool isKnownPicture(std::span<const std::uint8_t> bytes);
+
+/// What the numbers of a picture's colours mean; alpha is linear and straight either way.
+enum class ColorEncoding { kSrgb, kLinear };
+
+/// Decodes 8- and 16-bit PNG, JPEG and WebP. Grey becomes RGB, a missing alpha 1. Colour profiles and
+/// orientation tags are ignored, as glTF asks. Throws InputError naming `what`, also for a picture that
+/// claims more texels than its bytes can hold; FailureError past max_texels.
+Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, std::uint64_t max_texels,
+                  const std::string& what);
 
 }  // namespace edgewise

@@ -127,6 +127,9 @@ AccessorNumbers readNumbers(const tinygltf::Model& model, int index, const std::
     AccessorNumbers numbers;
     numbers.count = accessor.count;
     numbers.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (accessor.bufferView < 0 && accessor.count > kMaxUnbackedElements)
+        throw FailureError(where, fmt::format("{} elements without a buffer view, the limit is {}",
+                                              accessor.count, kMaxUnbackedElements));
     numbers.stored = readDense(model, accessor, numbers.components);
     if (accessor.sparse.isSparse) replaceSparse(model, accessor, where, numbers);
     if (accessor.normalized) normalize(accessor.componentType, numbers);

@@ -26,8 +26,13 @@ struct AccessorNumbers {
     }
 };
 
-/// Any accessor but a matrix. Throws InputError "source: accessors[i]" for a number that is not finite and
-/// for sparse indices that do not increase or reach past the end.
+/// More elements than this without stored bytes (an accessor without a buffer view: zeros, and what its
+/// sparse part replaces) are refused, as are more such vertices in a scene: 128 MiB at most.
+inline constexpr std::uint64_t kMaxUnbackedElements = std::uint64_t(1) << 20;
+
+/// Any accessor but a matrix of fewer than 4 rows. FailureError past kMaxUnbackedElements. Throws InputError
+/// "source: accessors[i]" for a number that is not finite and for sparse indices that do not increase or
+/// reach past the end.
 AccessorNumbers readNumbers(const tinygltf::Model& model, int accessor, const std::string& source);
 
 }  // namespace edgewise

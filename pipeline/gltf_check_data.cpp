@@ -5,12 +5,14 @@
 #include "pipeline/gltf_check.h"
 #include "pipeline/gltf_document.h"
 #include "pipeline/gltf_files.h"
+#include "pipeline/gltf_meshopt.h"
 
 namespace edgewise {
 namespace {
 
 struct View {
     std::uint64_t offset = 0, length = 0, stride = 0;
+    bool has_data = true;  ///< plain or compressed bytes
 };
 
 std::uint64_t bytesBehindUri(const GltfElement& uri, const GltfDocument& document) {
@@ -22,22 +24,27 @@ std::uint64_t bytesBehindUri(const GltfElement& uri, const GltfDocument& documen
     return std::filesystem::file_size(path);
 }
 
-std::uint64_t bytesBehindBuffer(const GltfElement& buffer, bool is_first, const GltfDocument& document) {
+/// None: a placeholder for what compressed views hold.
+std::optional<std::uint64_t> bytesBehindBuffer(const GltfElement& buffer, bool is_first,
+                                               const GltfDocument& document) {
     if (const auto uri = buffer.find("uri")) return bytesBehindUri(*uri, document);
-    if (!document.is_binary || !is_first) buffer.fail("has no uri");
+    if (!document.is_binary || !is_first) return std::nullopt;
     return document.binary_chunk.size();
 }
 
-void checkBuffer(const GltfElement& buffer, bool is_first, const GltfDocument& document) {
+/// True if it has bytes.
+bool checkBuffer(const GltfElement& buffer, bool is_first, const GltfDocument& document) {
     const std::uint64_t length = buffer.need("byteLength").integer(1, kMaxFileBytes);
-    const std::uint64_t found = bytesBehindBuffer(buffer, is_first, document);
-    if (found > kMaxFileBytes)
-        throw FailureError(buffer.where(), fmt::format("{} bytes, the limit is {}", found, kMaxFileBytes));
-    if (found < length) buffer.fail(fmt::format("byteLength is {}, but there are {} bytes", length, found));
+    const auto found = bytesBehindBuffer(buffer, is_first, document);
+    if (!found) return false;
+    if (*found > kMaxFileBytes)
+        throw FailureError(buffer.where(), fmt::format("{} bytes, the limit is {}", *found, kMaxFileBytes));
+    if (*found < length) buffer.fail(fmt::format("byteLength is {}, but there are {} bytes", length, *found));
+    return true;
 }
 
-View checkView(const GltfElement& view, const GltfElement& root, const GltfCounts& counts) {
-    const std::size_t buffer = view.need("buffer").reference(counts.buffers, "buffers");
+View checkView(const GltfElement& view, const GltfElement& root, const std::vector<bool>& has_data) {
+    const std::size_t buffer = view.need("buffer").reference(has_data.size(), "buffers");
     View result;
     result.offset = view.integerOr("byteOffset", 0);
     result.length = view.need("byteLength").integer(1);
@@ -49,6 +56,8 @@ View checkView(const GltfElement& view, const GltfElement& root, const GltfCount
     if (result.offset + result.length > available)
         view.fail(fmt::format("ends at byte {}, buffers[{}] has {}", result.offset + result.length, buffer,
                               available));
+    checkMeshopt(view, root, has_data);
+    result.has_data = has_data[buffer] || meshoptOf(view);
     return result;
 }
 
@@ -73,6 +82,7 @@ void checkRange(const GltfElement& element, const View& view, std::uint64_t offs
     if ((view.offset + offset) % component_bytes != 0)
         element.fail(fmt::format("starts at byte {} of its buffer, not a multiple of its components' {}",
                                  view.offset + offset, component_bytes));
+    if (!view.has_data) element.fail("its buffer has no uri, hence no bytes");
     // At most 2^32 + 252 * 2^32 + 64: no overflow.
     const std::uint64_t end = offset + stride * (count - 1) + element_bytes;
     if (end > view.length)
@@ -99,19 +109,12 @@ class AccessorChecker {
         const std::uint64_t offset = accessor_.integerOr("byteOffset", 0);
         const auto view = accessor_.referenceIf("bufferView", views_.size(), "buffer views");
         const std::uint64_t bytes = elementBytes(type_, component_);
-        if (!view) return checkUnbacked();
+        if (!view) return;
         const std::uint64_t stride = views_[*view].stride == 0 ? bytes : views_[*view].stride;
         if (stride < bytes)
             accessor_.fail(fmt::format("has elements of {} bytes, bufferViews[{}] a byteStride of {}", bytes,
                                        *view, stride));
         checkRange(accessor_, views_[*view], offset, stride, count_, bytes, componentBytes(component_));
-    }
-
-    void checkUnbacked() const {
-        if (count_ > kMaxUnbackedElements)
-            throw FailureError(accessor_.where(),
-                               fmt::format("{} elements without a buffer view, the limit is {}", count_,
-                                           kMaxUnbackedElements));
     }
 
     void checkSparse(const GltfElement& sparse) const {
@@ -137,6 +140,18 @@ class AccessorChecker {
     std::string type_;
 };
 
+/// Images and Draco's pieces are read as they lie: their views may be no placeholders.
+void checkPlainViews(const GltfElement& root, const std::vector<bool>& has_data) {
+    const auto check = [&](const GltfElement& owner) {
+        const auto view = owner.find("bufferView");
+        if (!view) return;
+        const GltfElement views = root.need("bufferViews").array();
+        const GltfElement found = views.at(view->reference(views.size(), "buffer views"));
+        if (!has_data[found.need("buffer").integer()]) owner.fail("its buffer has no uri, hence no bytes");
+    };
+    root.each("images", check);
+}
+
 }  // namespace
 
 std::uint64_t componentBytes(std::uint64_t component_type) {
@@ -144,15 +159,20 @@ std::uint64_t componentBytes(std::uint64_t component_type) {
     return component_type == 5122 || component_type == 5123 ? 2 : 4;
 }
 
-void checkData(const GltfElement& root, const GltfCounts& counts, const GltfDocument& document) {
-    bool is_first = true;
+std::vector<bool> checkBuffers(const GltfElement& root, const GltfDocument& document) {
+    std::vector<bool> has_data;
     root.each("buffers", [&](const GltfElement& buffer) {
-        checkBuffer(buffer, is_first, document);
-        is_first = false;
+        has_data.push_back(checkBuffer(buffer, has_data.empty(), document));
     });
+    return has_data;
+}
+
+void checkData(const GltfElement& root, const GltfDocument& document) {
+    const std::vector<bool> has_data = checkBuffers(root, document);
     std::vector<View> views;
     root.each("bufferViews",
-              [&](const GltfElement& view) { views.push_back(checkView(view, root, counts)); });
+              [&](const GltfElement& view) { views.push_back(checkView(view, root, has_data)); });
+    checkPlainViews(root, has_data);
     root.each("accessors", [&](const GltfElement& accessor) { AccessorChecker(accessor, views).check(); });
 }
 

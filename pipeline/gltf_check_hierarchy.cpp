@@ -2,7 +2,10 @@
 #include <cmath>
 #include <vector>
 
+#include "pipeline/gltf_animation.h"
 #include "pipeline/gltf_check.h"
+#include "pipeline/gltf_instancing.h"
+#include "pipeline/gltf_lights.h"
 
 namespace edgewise {
 namespace {
@@ -33,7 +36,9 @@ void checkNode(const GltfElement& node, const GltfCounts& counts) {
     node.referenceIf("mesh", counts.meshes, "meshes");
     node.referenceIf("camera", counts.cameras, "cameras");
     node.referenceIf("skin", counts.skins, "skins");
+    if (const auto weights = node.find("weights")) node.moderatesIf("weights", weights->array().size());
     checkTransform(node);
+    checkInstancing(node, counts);
 }
 
 std::vector<std::size_t> checkParents(const GltfElement& root, const GltfCounts& counts) {
@@ -81,9 +86,9 @@ void needPositive(const GltfElement& object, const char* key) {
     if (found && !(found->number() > 0.0)) found->fail(fmt::format("{} is not above 0", found->number()));
 }
 
-/// tinygltf writes 0 for an absent aspectRatio or zfar, so an explicit 0 must stop here.
 void checkCamera(const GltfElement& camera) {
-    const std::string type = camera.need("type").stringOf({"perspective", "orthographic"});
+    const std::string type = camera.need("type").string();
+    if (!isKnownCamera(camera)) return;
     const GltfElement lens = camera.need(type.c_str()).object();
     if (type == "orthographic") return needNumbers(lens, {"xmag", "ymag", "znear", "zfar"});
     needNumbers(lens, {"yfov", "znear"});
@@ -100,11 +105,18 @@ void checkSkin(const GltfElement& skin, const GltfCounts& counts) {
 
 }  // namespace
 
+bool isKnownCamera(const GltfElement& camera) {
+    const std::string type = camera.need("type").string();
+    return type == "perspective" || type == "orthographic";
+}
+
 void checkHierarchy(const GltfElement& root, const GltfCounts& counts) {
     root.each("nodes", [&](const GltfElement& node) { checkNode(node, counts); });
     checkCycles(root, checkParents(root, counts));
     root.each("cameras", checkCamera);
     root.each("skins", [&](const GltfElement& skin) { checkSkin(skin, counts); });
+    checkLights(root);
+    root.each("animations", [&](const GltfElement& animation) { checkAnimation(animation, counts); });
     root.each("scenes", [&](const GltfElement& scene) { checkScene(scene, counts); });
     root.referenceIf("scene", counts.scenes, "scenes");
 }

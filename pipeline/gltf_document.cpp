@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -40,19 +41,19 @@ Chunk readChunk(const std::string& source, Bytes file, std::size_t offset, int i
     return {readUint32(file, offset + 4), file.subspan(offset + 8, length), offset + 8 + length};
 }
 
-void checkGlbHeader(const std::string& source, Bytes file) {
+void checkGlbHeader(const std::string& source, Bytes file, std::uint64_t file_size) {
     const std::string where = source + ": GLB header";
     if (file.size() < 12) throw InputError(where, "the file is shorter than 12 bytes");
     if (readUint32(file, 4) != 2)
         throw InputError(where, fmt::format("version {} is not supported, only 2", readUint32(file, 4)));
-    if (readUint32(file, 8) != file.size())
+    if (readUint32(file, 8) != file_size)
         throw InputError(where,
-                         fmt::format("says {} bytes, the file has {}", readUint32(file, 8), file.size()));
+                         fmt::format("says {} bytes, the file has {}", readUint32(file, 8), file_size));
 }
 
 /// Chunks after the binary one belong to extensions and are skipped, as the specification asks.
 std::string_view splitGlb(GltfDocument& document, Bytes file) {
-    checkGlbHeader(document.source, file);
+    checkGlbHeader(document.source, file, file.size());
     const Chunk json_chunk = readChunk(document.source, file, 12, 0);
     if (json_chunk.type != kJsonChunk)
         throw InputError(document.source + ": GLB chunk 0",
@@ -89,6 +90,29 @@ nlohmann::json parseJson(const std::string& source, std::string_view text) {
     }
 }
 
+void needRegularFile(const std::filesystem::path& path, const std::string& what) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(what, "no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(what, "is not a regular file");
+}
+
+/// Before all of a large file is read: does it start like a GLB of its size, or like a JSON object?
+void checkBeginning(const std::filesystem::path& path, const std::string& source) {
+    std::array<char, 256> bytes{};
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(bytes.data(), bytes.size());
+    const std::string_view found(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+    if (found.size() < 4) throw InputError(source, "is neither glTF nor GLB: shorter than 4 bytes");
+    if (found.starts_with("glTF")) {
+        const auto* begin = reinterpret_cast<const std::uint8_t*>(found.data());
+        return checkGlbHeader(source, {begin, found.size()}, std::filesystem::file_size(path));
+    }
+    const std::size_t first = found.find_first_not_of(" \t\r\n", found.starts_with("\xef\xbb\xbf") ? 3 : 0);
+    if (first != std::string_view::npos && found[first] != '{' && found[first] != '[')
+        throw InputError(source, "is neither glTF nor GLB: it starts with neither { nor glTF");
+}
+
 }  // namespace
 
 int jsonDepth(std::string_view text, int limit) {
@@ -109,10 +133,8 @@ int jsonDepth(std::string_view text, int limit) {
 }
 
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& what) {
+    needRegularFile(path, what);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(what, "no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(what, "is not a regular file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) throw InputError(what, "cannot be read: " + error.message());
     if (size > kMaxFileBytes)
@@ -127,6 +149,8 @@ std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const
 GltfDocument readGltfDocument(const std::filesystem::path& path) {
     GltfDocument document;
     document.source = oneLine(path.string());
+    needRegularFile(path, document.source);
+    checkBeginning(path, document.source);
     const std::vector<std::uint8_t> file = readWholeFile(path, document.source);
     document.folder = std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".");
     if (file.size() < 4) throw InputError(document.source, "is neither glTF nor GLB: shorter than 4 bytes");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
@@ -43,6 +44,15 @@ class GltfElement {
     std::size_t size() const { return value_->size(); }
     GltfElement at(std::size_t i) const { return {(*value_)[i], fmt::format("{}[{}]", where_, i)}; }
 
+    /// The body of an extension of this element, an object.
+    std::optional<GltfElement> extension(const char* name) const {
+        const auto extensions = find("extensions");
+        if (!extensions) return std::nullopt;
+        const auto body = extensions->object().find(name);
+        if (body) body->object();
+        return body;
+    }
+
     const GltfElement& object() const { return expect(value_->is_object(), "an object"); }
     const GltfElement& array() const { return expect(value_->is_array(), "an array"); }
     std::string string() const {
@@ -56,6 +66,13 @@ class GltfElement {
     double number() const {
         expect(value_->is_number(), "a number");
         return value_->get<double>();
+    }
+    /// A number that float32 can hold: products of two such stay finite in double.
+    double moderate() const {
+        const double value = number();
+        if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+            fail(fmt::format("{} is beyond the range of a 32-bit float", value));
+        return value;
     }
     /// A whole number in [low, high]. 3.0 is one too (the specification's wish); it is rewritten as 3.
     std::uint64_t integer(std::uint64_t low = 0, std::uint64_t high = kMaxGltfInteger) const {
@@ -93,9 +110,24 @@ class GltfElement {
         for (std::size_t i = 0; i < count; ++i) at(i).number();
     }
 
+    void moderateIf(const char* key) const {
+        if (const auto found = find(key)) found->moderate();
+    }
+    /// `count` moderate numbers, if the key is there.
+    void moderatesIf(const char* key, std::size_t count) const {
+        const auto found = find(key);
+        if (!found) return;
+        found->numbers(count);
+        for (std::size_t i = 0; i < count; ++i) found->at(i).moderate();
+    }
+
     std::uint64_t integerOr(const char* key, std::uint64_t absent) const {
         const auto found = find(key);
         return found ? found->integer() : absent;
+    }
+    double numberOr(const char* key, double absent) const {
+        const auto found = find(key);
+        return found ? found->number() : absent;
     }
     bool booleanOr(const char* key, bool absent) const {
         const auto found = find(key);

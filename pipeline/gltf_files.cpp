@@ -74,16 +74,17 @@ bool keepImageBytes(tinygltf::Image* image, const int, std::string*, std::string
     return true;
 }
 
-/// tinygltf refuses an indices accessor without a buffer view, which is legal when it is sparse.
-void lendViews(nlohmann::json& root) {
-    if (!root.contains("accessors") || !root.contains("bufferViews")) return;
-    for (auto& accessor : root["accessors"])
-        if (accessor.contains("sparse")) accessor.emplace("bufferView", 0);
+/// tinygltf refuses indices without a buffer view, which are legal when they are sparse, compressed or all 0.
+void takeIndices(nlohmann::json& root) {
+    if (!root.contains("meshes")) return;
+    for (auto& mesh : root["meshes"])
+        for (auto& primitive : mesh["primitives"]) primitive.erase("indices");
 }
 
-void takeViewsBack(const nlohmann::json& root, tinygltf::Model& model) {
-    for (std::size_t i = 0; i < model.accessors.size(); ++i)
-        if (!root["accessors"][i].contains("bufferView")) model.accessors[i].bufferView = -1;
+void giveIndicesBack(const nlohmann::json& root, tinygltf::Model& model) {
+    for (std::size_t m = 0; m < model.meshes.size(); ++m)
+        for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
+            model.meshes[m].primitives[p].indices = root["meshes"][m]["primitives"][p].value("indices", -1);
 }
 
 /// tinygltf reads "+" as a space.
@@ -109,15 +110,24 @@ void rewriteUri(nlohmann::json& element, const GltfDocument& document) {
     element["uri"] = withoutPlus(uri);
 }
 
-nlohmann::json forTinygltf(const GltfDocument& document) {
+/// tinygltf wants every buffer's bytes; a placeholder gets three.
+void fillPlaceholder(nlohmann::json& buffer) {
+    buffer["uri"] = "data:application/octet-stream;base64,AAAA";
+    buffer["byteLength"] = 3;
+}
+
+nlohmann::json forTinygltf(const GltfDocument& document, const std::vector<bool>& has_data) {
     nlohmann::json root = document.root;
-    for (const char* section : {"animations", "skins", "extras"}) root.erase(section);
+    for (const char* section : {"animations", "skins", "materials", "cameras", "extensions", "extras"})
+        root.erase(section);
     for (const char* section : {"buffers", "images"}) {
         if (!root.contains(section)) continue;
         for (auto& element : root[section])
             if (element.contains("uri")) rewriteUri(element, document);
     }
-    lendViews(root);
+    for (std::size_t i = 0; i < has_data.size(); ++i)
+        if (!has_data[i]) fillPlaceholder(root["buffers"][i]);
+    takeIndices(root);
     return root;
 }
 
@@ -157,10 +167,11 @@ void installCallbacks(tinygltf::TinyGLTF& parser, std::filesystem::path& folder)
     parser.SetImageLoader(keepImageBytes, nullptr);
 }
 
-bool runTinygltf(tinygltf::Model& model, std::string& error, GltfDocument& document) {
+bool runTinygltf(tinygltf::Model& model, std::string& error, GltfDocument& document,
+                 const std::vector<bool>& has_data) {
     tinygltf::TinyGLTF parser;
     installCallbacks(parser, document.folder);
-    const std::string json_text = forTinygltf(document).dump();
+    const std::string json_text = forTinygltf(document, has_data).dump();
     std::string warnings;
     if (!document.is_binary)
         return parser.LoadASCIIFromString(&model, &error, &warnings, json_text.data(),
@@ -203,18 +214,18 @@ std::filesystem::path jailedPath(const std::filesystem::path& folder, std::strin
     if (relative.is_absolute()) throw InputError(where, fmt::format("\"{}\" is an absolute path", decoded));
     if (decoded.find_first_of(std::string("\\\0", 2)) != std::string::npos)
         throw InputError(where, fmt::format("\"{}\" has a backslash or a zero byte", decoded));
-    if (std::find(relative.begin(), relative.end(), "..") != relative.end() ||
-        !liesInFolder(folder / relative, folder))
+    const std::filesystem::path normal = relative.lexically_normal();
+    if ((!normal.empty() && *normal.begin() == "..") || !liesInFolder(folder / relative, folder))
         throw InputError(where, fmt::format("\"{}\" leaves the scene's folder", decoded));
     return folder / relative;
 }
 
-tinygltf::Model readModel(GltfDocument& document) {
+tinygltf::Model readModel(GltfDocument& document, const std::vector<bool>& has_data) {
     tinygltf::Model model;
     std::string error;
     try {
-        if (runTinygltf(model, error, document)) {
-            takeViewsBack(document.root, model);
+        if (runTinygltf(model, error, document, has_data)) {
+            giveIndicesBack(document.root, model);
             return model;
         }
     } catch (const std::out_of_range&) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tinygltf {
 class Model;
@@ -36,8 +37,9 @@ std::filesystem::path jailedPath(const std::filesystem::path& folder, std::strin
 bool liesInFolder(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 /// Runs tinygltf over a document that checkGltf accepted. Files are read through the jail only; images keep
-/// their encoded bytes (an external image that cannot be read keeps none). Animations and skins stay out.
-/// Consumes the document's binary chunk.
-tinygltf::Model readModel(GltfDocument& document);
+/// their encoded bytes (an external image that cannot be read keeps none); buffers without data (has_data, as
+/// checkBuffers gives it) get a few bytes that nothing reads. Animations, skins, materials and cameras stay
+/// out: they are read from the document. Consumes the document's binary chunk.
+tinygltf::Model readModel(GltfDocument& document, const std::vector<bool>& has_data);
 
 }  // namespace edgewise

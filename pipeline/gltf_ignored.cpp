@@ -5,6 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/gltf_check.h"
+
 namespace edgewise {
 namespace {
 
@@ -31,28 +33,19 @@ std::size_t countIf(const Json& list, const Has& has) {
     return static_cast<std::size_t>(std::count_if(list.begin(), list.end(), has));
 }
 
-bool emits(const Json& material) {
-    if (material.contains("emissiveTexture")) return true;
-    const Json& factor = section(material, "emissiveFactor");
-    return std::any_of(factor.begin(), factor.end(), [](const Json& value) { return value != 0.0; });
+void addMaterials(const Json& root, std::vector<Ignored>& list) {
+    constexpr std::array known{"OPAQUE", "MASK", "BLEND"};
+    add(list, "unknown alpha modes", countIf(section(root, "materials"), [&](const Json& material) {
+            const std::string mode = material.value("alphaMode", "OPAQUE");
+            return std::find(known.begin(), known.end(), mode) == known.end();
+        }));
 }
 
-void addMaterials(const Json& root, std::vector<Ignored>& list) {
-    const Json& materials = section(root, "materials");
-    const auto alpha = [](const char* mode) {
-        return [mode](const Json& material) { return material.value("alphaMode", "OPAQUE") == mode; };
-    };
-    const auto has = [](const char* key) {
-        return [key](const Json& material) { return material.contains(key); };
-    };
-    add(list, "alpha mode MASK", countIf(materials, alpha("MASK")));
-    add(list, "alpha mode BLEND", countIf(materials, alpha("BLEND")));
-    add(list, "emissive materials", countIf(materials, emits));
-    add(list, "metallic-roughness textures", countIf(materials, [](const Json& material) {
-            return section(material, "pbrMetallicRoughness").contains("metallicRoughnessTexture");
-        }));
-    add(list, "normal textures", countIf(materials, has("normalTexture")));
-    add(list, "occlusion textures", countIf(materials, has("occlusionTexture")));
+/// Beyond positions, normals and tangents.
+bool changesLooks(const Json& target) {
+    for (const auto& [name, accessor] : target.items())
+        if (name.starts_with("TEXCOORD_") || name.starts_with("COLOR_")) return true;
+    return false;
 }
 
 void addPrimitives(const Json& root, std::vector<Ignored>& list) {
@@ -62,9 +55,12 @@ void addPrimitives(const Json& root, std::vector<Ignored>& list) {
             const std::size_t mode = primitive.value("mode", std::size_t{4});
             if (mode < kinds.size())
                 add(list, kinds[mode], 1);
+            else if (mode > 6)
+                add(list, "primitives of an unknown mode", 1);
             else if (!primitive["attributes"].contains("POSITION"))
                 add(list, "primitives without positions", 1);
-            if (!section(primitive, "targets").empty()) add(list, "primitives with morph targets", 1);
+            add(list, "primitives whose morph targets change texture coordinates or colours",
+                countIf(section(primitive, "targets"), changesLooks) > 0);
             if (primitive["attributes"].contains("COLOR_1")) add(list, "primitives with a second colour", 1);
         }
 }
@@ -84,13 +80,10 @@ std::vector<Ignored> listIgnored(const Json& root) {
     std::vector<Ignored> list;
     addMaterials(root, list);
     addPrimitives(root, list);
-    add(list, "skinned nodes",
-        countIf(section(root, "nodes"), [](const Json& node) { return node.contains("skin"); }));
-    add(list, "animations", section(root, "animations").size());
     std::map<std::string, std::size_t> uses;
     countExtensions(root, uses);
     for (const auto& [name, count] : uses)
-        if (name != "KHR_materials_unlit") add(list, "extension " + name, count);
+        if (!isSupportedExtension(name)) add(list, "extension " + name, count);
     return list;
 }
 

@@ -1,116 +1,76 @@
 #include "pipeline/gltf_material.h"
 
-#include <fmt/format.h>
-#include <tiny_gltf.h>
-#include <map>
-
-#include "pipeline/decode_image.h"
-#include "pipeline/gltf_ignored.h"
+#include "pipeline/gltf_texture.h"
 
 namespace edgewise {
 namespace {
 
-Wrap wrapOf(int gltf_wrap) {
-    if (gltf_wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClampToEdge;
-    return gltf_wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirroredRepeat : Wrap::kRepeat;
+template <int N>
+glm::vec<N, double> vectorOr(const GltfElement& owner, const char* key, const glm::vec<N, double>& absent) {
+    const auto found = owner.find(key);
+    if (!found) return absent;
+    glm::vec<N, double> value;
+    for (int i = 0; i < N; ++i) value[i] = found->at(static_cast<std::size_t>(i)).number();
+    return value;
 }
 
-/// Absent filters stay at the defaults of Texture: linear, and linear between levels.
-void readSampler(const tinygltf::Sampler& sampler, Texture& texture) {
-    texture.wrap_s = wrapOf(sampler.wrapS);
-    texture.wrap_t = wrapOf(sampler.wrapT);
-    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) texture.mag = TexelFilter::kNearest;
-    switch (sampler.minFilter) {
-        case TINYGLTF_TEXTURE_FILTER_NEAREST:
-            texture.min = TexelFilter::kNearest;
-            texture.mip.reset();
-            break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR:
-            texture.mip.reset();
-            break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-            texture.min = TexelFilter::kNearest;
-            texture.mip = TexelFilter::kNearest;
-            break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
-            texture.mip = TexelFilter::kNearest;
-            break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
-            texture.min = TexelFilter::kNearest;
-            break;
-        default:
-            break;
-    }
+AlphaMode alphaMode(const GltfElement& from) {
+    const auto mode = from.find("alphaMode");
+    if (!mode || mode->string() == "OPAQUE") return AlphaMode::kOpaque;
+    return mode->string() == "MASK"    ? AlphaMode::kMask
+           : mode->string() == "BLEND" ? AlphaMode::kBlend
+                                       : AlphaMode::kOpaque;
 }
 
-class MaterialReader {
-  public:
-    MaterialReader(const tinygltf::Model& model, const std::string& source, Scene& scene)
-        : model_(model), source_(source), scene_(scene) {}
+double emissiveStrength(const GltfElement& from) {
+    const auto strength = from.extension("KHR_materials_emissive_strength");
+    return strength ? strength->numberOr("emissiveStrength", 1.0) : 1.0;
+}
 
-    Material read(const tinygltf::Material& from, bool used) {
-        const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-        Material material;
-        material.name = from.name;
-        for (int i = 0; i < 4; ++i) material.base_color[i] = pbr.baseColorFactor[static_cast<std::size_t>(i)];
-        material.unlit = from.extensions.contains("KHR_materials_unlit");
-        material.double_sided = from.doubleSided;
-        material.alpha_cutoff = from.alphaCutoff;
-        if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::kMask;
-        if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::kBlend;
-        if (used && pbr.baseColorTexture.index >= 0) readTexture(pbr.baseColorTexture, material);
-        return material;
+/// All but the textures.
+Material readFactors(const GltfElement& from) {
+    Material material;
+    if (const auto name = from.find("name")) material.name = name->string();
+    if (const auto pbr = from.find("pbrMetallicRoughness")) {
+        material.base_color = vectorOr<4>(*pbr, "baseColorFactor", glm::dvec4(1.0));
+        material.metallic = pbr->numberOr("metallicFactor", 1.0);
+        material.roughness = pbr->numberOr("roughnessFactor", 1.0);
     }
+    material.emissive = vectorOr<3>(from, "emissiveFactor", glm::dvec3(0.0)) * emissiveStrength(from);
+    if (const auto normal = from.find("normalTexture"))
+        material.normal_scale = normal->numberOr("scale", 1.0);
+    if (const auto occlusion = from.find("occlusionTexture"))
+        material.occlusion_strength = occlusion->numberOr("strength", 1.0);
+    material.alpha_mode = alphaMode(from);
+    material.alpha_cutoff = from.numberOr("alphaCutoff", 0.5);
+    material.unlit = from.extension("KHR_materials_unlit").has_value();
+    material.double_sided = from.booleanOr("doubleSided", false);
+    return material;
+}
 
-  private:
-    void readTexture(const tinygltf::TextureInfo& info, Material& material) {
-        const tinygltf::Texture& from = model_.textures[static_cast<std::size_t>(info.index)];
-        if (info.texCoord > 1)
-            return countIgnored(scene_, "textures with texture coordinates beyond TEXCOORD_1");
-        if (from.source < 0) return countIgnored(scene_, "textures without an image of a known format");
-        material.base_color_map.uv = info.texCoord;
-        material.base_color_map.texture = texture(info.index, from);
-    }
-
-    std::uint32_t texture(int index, const tinygltf::Texture& from) {
-        const auto [known, is_new] =
-            texture_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.textures.size()));
-        if (is_new) {
-            Texture made;
-            made.image = image(from.source);
-            if (from.sampler >= 0) readSampler(model_.samplers[static_cast<std::size_t>(from.sampler)], made);
-            scene_.textures.push_back(made);
-        }
-        return known->second;
-    }
-
-    std::uint32_t image(int index) {
-        const auto [known, is_new] =
-            image_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.images.size()));
-        if (is_new) {
-            const tinygltf::Image& from = model_.images[static_cast<std::size_t>(index)];
-            const std::string name = from.uri.empty() ? from.name : from.uri;
-            const std::string where =
-                fmt::format("{}: images[{}]{}", source_, index, name.empty() ? "" : " " + name);
-            scene_.images.push_back(decodeSrgbImage(from.image, where));
-            scene_.images.back().name = name;
-        }
-        return known->second;
-    }
-
-    const tinygltf::Model& model_;
-    const std::string& source_;
-    Scene& scene_;
-    std::map<int, std::uint32_t> texture_of_, image_of_;
-};
+void readTextures(const GltfElement& from, GltfTextures& textures, Material& material) {
+    const auto pbr = from.find("pbrMetallicRoughness");
+    if (pbr) material.base_color_map = textures.use(*pbr, "baseColorTexture", ColorEncoding::kSrgb);
+    if (material.unlit) return;
+    if (pbr)
+        material.metallic_roughness_map =
+            textures.use(*pbr, "metallicRoughnessTexture", ColorEncoding::kLinear);
+    material.normal_map = textures.use(from, "normalTexture", ColorEncoding::kLinear);
+    material.occlusion_map = textures.use(from, "occlusionTexture", ColorEncoding::kLinear);
+    if (material.emissive != glm::dvec3(0.0))
+        material.emissive_map = textures.use(from, "emissiveTexture", ColorEncoding::kSrgb);
+}
 
 }  // namespace
 
-void readMaterials(const tinygltf::Model& model, const std::vector<bool>& used, const std::string& source,
-                   Scene& scene) {
-    MaterialReader reader(model, source, scene);
-    for (std::size_t i = 0; i < model.materials.size(); ++i)
-        scene.materials.push_back(reader.read(model.materials[i], used[i]));
+void readMaterials(const GltfElement& root, const tinygltf::Model& model, const std::vector<bool>& used,
+                   std::uint64_t max_texels, Scene& scene) {
+    GltfTextures textures(root, model, max_texels, scene);
+    root.each("materials", [&](const GltfElement& from) {
+        Material material = readFactors(from);
+        if (used[scene.materials.size()]) readTextures(from, textures, material);
+        scene.materials.push_back(material);
+    });
     Material fallback;
     fallback.name = "default";
     scene.materials.push_back(fallback);

@@ -1,9 +1,9 @@
-// Materials, textures and images of a checked glTF.
+// Materials of a checked glTF.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "pipeline/gltf_element.h"
 #include "pipeline/scene.h"
 
 namespace tinygltf {
@@ -13,9 +13,10 @@ class Model;
 namespace edgewise {
 
 /// Fills scene.materials with the file's materials in order, then glTF's default material, and scene.textures
-/// and scene.images with what the materials marked in `used` need, each once. Images of the others are not
-/// decoded, so they cannot fail. Throws InputError "source: images[i]".
-void readMaterials(const tinygltf::Model& model, const std::vector<bool>& used, const std::string& source,
-                   Scene& scene);
+/// and scene.images with what the materials marked in `used` need. Images that no used material shows are not
+/// decoded, so they cannot fail; one of more than max_texels is a FailureError; an unlit material shows its
+/// base colour alone. Throws InputError "source: images[i]".
+void readMaterials(const GltfElement& root, const tinygltf::Model& model, const std::vector<bool>& used,
+                   std::uint64_t max_texels, Scene& scene);
 
 }  // namespace edgewise

@@ -58,13 +58,21 @@ bool flipsWinding(const glm::dmat4& m) {
     return glm::dot(x, glm::cross(y, z)) < 0.0;
 }
 
-glm::dmat3 normalTransform(const glm::dmat4& m) {
+glm::dmat3 tangentTransform(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
-    const double scale =
-        powerOfTwoBelow(std::max({largestOf(linear[0]), largestOf(linear[1]), largestOf(linear[2])}));
-    const glm::dmat3 a = linear * scale;
+    return linear *
+           powerOfTwoBelow(std::max({largestOf(linear[0]), largestOf(linear[1]), largestOf(linear[2])}));
+}
+
+glm::dmat3 normalTransform(const glm::dmat4& m) {
+    const glm::dmat3 a = tangentTransform(m);
     const double sign = flipsWinding(m) ? -1.0 : 1.0;
     return glm::dmat3(glm::cross(a[1], a[2]), glm::cross(a[2], a[0]), glm::cross(a[0], a[1])) * sign;
+}
+
+std::optional<glm::dvec3> unitVector(const glm::dvec3& v) {
+    if (largestOf(v) == 0.0) return std::nullopt;
+    return glm::normalize(scaledToOne(v));
 }
 
 std::optional<glm::dmat4> rigidTransform(const glm::dmat4& m) {

@@ -2,20 +2,29 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "pipeline/scene.h"
 
 namespace edgewise {
 
-/// Scenes with more triangles or vertices (instances counted) are refused: a stated limit, FailureError.
-inline constexpr std::size_t kMaxTriangles = std::size_t(1) << 27;
-inline constexpr std::size_t kMaxVertices = std::size_t(1) << 27;
+/// What a scene may hold at most, instances counted; more is a FailureError.
+struct LoadLimits {
+    std::size_t triangles = std::size_t(1) << 27;
+    std::size_t vertices = std::size_t(1) << 27;
+    std::uint64_t image_texels = std::uint64_t(1) << 26;  ///< of one picture; 16 bytes each once decoded
+};
 
 struct LoadOptions {
     std::string scene;  ///< --scene NAME|INDEX; empty: the file's own, else the first, else every root node
+    /// --time: seconds into an animation; none: the rest pose, which no animation moves.
+    std::optional<double> time;
+    std::string animation;  ///< --animation NAME|INDEX; empty: the first
+    LoadLimits limits;
     std::function<void(double fraction)> progress;  ///< called with 0..1; may throw to stop
 };
 

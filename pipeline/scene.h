@@ -64,19 +64,22 @@ struct Material {
 /// Vertex attributes of one primitive of one node, already in world space. Absent attributes are empty.
 struct Geometry {
     /// As stored in the file, before the node's transform and before a normalized integer's division: exact.
+    /// Moved by morph targets or a skin: the mesh's (a skin's: the world's) positions, rounded to float32
+    /// once; the world's positions follow from the rounded ones.
     std::vector<glm::vec3> position_file;
     std::vector<glm::dvec3> position_world;
     std::vector<glm::dvec3> normal_world;  ///< not normalised; empty: flat normals
     /// TANGENT: direction in world space, not normalised, and the bitangent's sign.
     std::vector<glm::dvec4> tangent_world;
-    /// The affine map behind position_world, if there is one (no skin, no morph): depth planes are taken
-    /// through it from the file's exact planes. None: through the rounded world positions.
+    /// The affine map from position_file to position_world, if there is one (no normalized integers): depth
+    /// planes are taken through it from the exact planes. None: through the rounded world positions.
     std::optional<glm::dmat4> world_from_file;
     std::array<std::vector<glm::dvec2>, 2> uv;
     std::vector<glm::dvec4> color;                        ///< COLOR_0, linear
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< winding already flipped under negative scale
     std::uint32_t material = 0;                           ///< into Scene::materials
     std::uint32_t node = 0, mesh = 0, primitive = 0;      ///< the file's indices
+    std::uint32_t instance = 0;                           ///< of the node's EXT_mesh_gpu_instancing
     std::uint32_t first_triangle = 0;                     ///< contract index of triangles[0]
 };
 

@@ -48,6 +48,10 @@ glm::dvec2 readShift(const std::string& text) {
 Scene loadScene(const PictureArguments& arguments, Progress& progress) {
     LoadOptions options;
     options.scene = arguments.scene_choice.value_or("");
+    if (arguments.time) options.time = parseNumber("--time", *arguments.time);
+    if (arguments.animation && !arguments.time)
+        throw InputError("--animation", "needs --time: without it the rest pose is drawn");
+    options.animation = arguments.animation.value_or("");
     options.progress = LoadProgress(progress);
     Scene scene = loadGltf(findScene(arguments.scene), options);
     scene.source = arguments.scene;
@@ -83,6 +87,12 @@ void addPictureOptions(CLI::App& command, PictureArguments& arguments) {
     command
         .add_option("--scene", arguments.scene_choice,
                     "the file's scene; a name wins over an index [the file's own]")
+        ->type_name("NAME|INDEX");
+    command.add_option("--time", arguments.time, "pose of an animated file [the rest pose]")
+        ->type_name("SECONDS");
+    command
+        .add_option("--animation", arguments.animation,
+                    "with --time: the file's animation; a name wins over an index [the first]")
         ->type_name("NAME|INDEX");
     command
         .add_option(

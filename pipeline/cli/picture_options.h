@@ -14,10 +14,10 @@ namespace edgewise::cli {
 /// The flags as typed; an absent one is empty.
 struct PictureArguments {
     std::string scene;
-    std::optional<std::string> scene_choice, camera, size, crop, shift, eye, target, fovy;
+    std::optional<std::string> scene_choice, time, animation, camera, size, crop, shift, eye, target, fovy;
 };
 
-/// Adds SCENE, --scene, --camera, --eye, --target, --fovy, --size, --crop, --shift.
+/// Adds SCENE, --scene, --time, --animation, --camera, --eye, --target, --fovy, --size, --crop, --shift.
 void addPictureOptions(CLI::App& command, PictureArguments& arguments);
 
 struct Picture {

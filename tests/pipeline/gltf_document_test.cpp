@@ -39,6 +39,8 @@ TEST(GltfDocument, TextThatIsNoJson) {
     EXPECT_TRUE(problemOf("{\"asset\": }").starts_with("JSON: "));
     EXPECT_TRUE(problemOf("{\"a\": \"\xff\"}").starts_with("JSON: "));
     EXPECT_TRUE(problemOf("{\"a\": 1e999}").starts_with("JSON: "));
+    EXPECT_EQ(problemOf(std::string(1000, '\0')),
+              "is neither glTF nor GLB: it starts with neither { nor glTF");
     EXPECT_EQ(problemOf("[1, 2]"), "JSON: the file's root is not an object");
     EXPECT_EQ(problemOf(std::string(10'000'000, '[')), "JSON: is nested deeper than 256 levels");
     EXPECT_EQ(jsonDepth(R"({"a": ["[[[", "\"[[", {}]})", 100), 3);
@@ -54,10 +56,12 @@ TEST(GltfDocument, OddFilesNeitherHangNorEscape) {
     const TempFolder folder, outside;
     EXPECT_THROW(loadGltf(folder / "absent.glb"), InputError);
     EXPECT_THROW(loadGltf(folder / ""), InputError);
+    EXPECT_THROW(loadGltf("/dev/zero"), InputError);
+    std::filesystem::create_symlink("/dev/zero", folder / "zeros.bin");
     ASSERT_EQ(::mkfifo((folder / "pipe.bin").c_str(), 0600), 0);
     test::writeFile(outside / "secret.bin", std::string(36, '\0'));
     std::filesystem::create_symlink(outside / "secret.bin", folder / "link.bin");
-    for (const char* uri : {"pipe.bin", "link.bin", ".", "a\nb"}) {
+    for (const char* uri : {"pipe.bin", "link.bin", "zeros.bin", "/dev/zero", ".", "a\nb"}) {
         TinyGltf file;
         file.root["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
         test::writeFile(folder / "a.gltf", file.asGltf());
@@ -65,13 +69,39 @@ TEST(GltfDocument, OddFilesNeitherHangNorEscape) {
     }
 }
 
-TEST(GltfDocument, LimitsAreFailuresNotInputErrors) {
+/// Named like anything, in folders below the scene's, with dots that stay inside.
+TEST(GltfDocument, UrisMayWanderInsideTheFolder) {
     const TempFolder folder;
+    std::filesystem::create_directory(folder / "sub");
     TinyGltf file;
-    file.root["accessors"][0]["count"] = 4'000'000'000u;
-    file.root["accessors"][0].erase("bufferView");
-    test::writeFile(folder / "a.gltf", file.asGltf());
-    EXPECT_THROW(loadGltf(folder / "a.gltf"), FailureError);
+    test::writeFile(folder / "sub/Ä b.BIN", file.buffer);
+    for (const char* uri : {"sub/%C3%84%20b.BIN", "./sub/%c3%84 b.BIN", "sub/../sub/Ä b.BIN"}) {
+        file.root["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
+        test::writeFile(folder / "a.gltf", file.asGltf());
+        EXPECT_EQ(loadGltf(folder / "a.gltf").triangle_count, 1u) << uri;
+    }
+}
+
+TEST(GltfDocument, LimitsAreFailuresNotInputErrors) {
+    const auto load = [](const TinyGltf& file) {
+        const TempFolder folder;
+        test::writeFile(folder / "a.gltf", file.asGltf());
+        loadGltf(folder / "a.gltf");
+    };
+    TinyGltf zeros;
+    zeros.root["accessors"][0]["count"] = 4'000'000'000u;
+    zeros.root["accessors"][0].erase("bufferView");
+    EXPECT_THROW(load(zeros), FailureError);
+    TinyGltf repeated;
+    repeated.root["accessors"][0]["count"] = 1'000'000;
+    repeated.root["accessors"][0].erase("bufferView");
+    repeated.root["meshes"][0]["primitives"] = std::vector<nlohmann::json>(1000, repeated.primitive());
+    EXPECT_THROW(load(repeated), FailureError);
+    TinyGltf instanced;
+    instanced.root["accessors"].push_back(
+        {{"componentType", 5126}, {"count", 4'000'000'000u}, {"type", "VEC3"}});
+    instanced.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = 1;
+    EXPECT_THROW(load(instanced), FailureError);
 }
 
 }  // namespace

@@ -163,7 +163,8 @@ TEST(DecodeImage, SrgbCurveHasItsPublishedConstants) {
 }
 
 Image decode(const std::string& bytes) {
-    return decodeSrgbImage({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "test");
+    return decodeImage({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                       ColorEncoding::kSrgb, std::uint64_t(1) << 26, "test");
 }
 
 TEST(DecodeImage, GreyAlphaAndSixteenBits) {

@@ -45,6 +45,7 @@ const std::vector<Malformed>& table() {
         root("asset is missing", [](json& j) { j.erase("asset"); }),
         root("asset: version is missing", [](json& j) { j["asset"].erase("version"); }),
         root("asset.version: 1.0 is not supported", [](json& j) { j["asset"]["version"] = "1.0"; }),
+        root("asset.version: 3.0 is not supported", [](json& j) { j["asset"]["version"] = "3.0"; }),
         root("asset.version: \"two\"", [](json& j) { j["asset"]["version"] = "two"; }),
         root("asset.version: is a number", [](json& j) { j["asset"]["version"] = 2.0; }),
         root("asset.minVersion: 2.1", [](json& j) { j["asset"]["minVersion"] = "2.1"; }),
@@ -115,12 +116,49 @@ const std::vector<Malformed>& table() {
                  j["nodes"][0]["scale"] = {1.7e308, 1, 1};
                  j["nodes"][0]["translation"] = {1.7e308, 0, 0};
              }),
+        root("extensionsRequired[0]: the file requires the extension KHR_texture_basisu",
+             [](json& j) { j["extensionsRequired"] = {"KHR_texture_basisu"}; }),
+        root("extensionsRequired[0]: the file requires the extension KHR_materials_transmission",
+             [](json& j) { j["extensionsRequired"] = {"KHR_materials_transmission"}; }),
+        root("meshes[0].primitives[0].attributes: is empty",
+             [](json& j) { j["meshes"][0]["primitives"][0]["attributes"] = json::object(); }),
+        root("nodes[0].weights[0]: is a string", [](json& j) { j["nodes"][0]["weights"] = {"1"}; }),
+        root("meshes[0].weights: is a number", [](json& j) { j["meshes"][0]["weights"] = 1; }),
+        root("animations[0].channels[0].sampler: 0 is out of range",
+             [](json& j) {
+                 j["animations"] = {{{"channels", {{{"sampler", 0}}}}}};
+             }),
+        root("animations[0].channels[0].target.node: 7 is out of range",
+             [](json& j) {
+                 j["animations"] = {
+                     {{"samplers", {{{"input", 0}, {"output", 0}}}},
+                      {"channels", {{{"sampler", 0}, {"target", {{"node", 7}, {"path", "scale"}}}}}}}};
+             }),
+        root("animations[0].samplers[0].input: 5 is out of range",
+             [](json& j) {
+                 j["animations"] = {{{"samplers", {{{"input", 5}, {"output", 0}}}}}};
+             }),
+        root("materials[0].pbrMetallicRoughness.metallicFactor: 1.5 is not in [0, 1]",
+             [](json& j) {
+                 j["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}}}}};
+             }),
+        root("materials[0].extensions.KHR_materials_emissive_strength.emissiveStrength: -1 is negative",
+             [](json& j) {
+                 j["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = -1;
+             }),
+        root("materials[0].normalTexture.scale: 1e+300 is beyond the range of a 32-bit float",
+             [](json& j) {
+                 j["textures"] = {json::object()};
+                 j["materials"] = {{{"normalTexture", {{"index", 0}, {"scale", 1e300}}}}};
+             }),
+        root("materials[0].extensions: is a number",
+             [](json& j) {
+                 j["materials"] = {{{"extensions", 3}}};
+             }),
         root("meshes[0]: primitives is missing", [](json& j) { j["meshes"][0].erase("primitives"); }),
         root("meshes[0]: has no primitives", [](json& j) { j["meshes"][0]["primitives"] = json::array(); }),
         root("meshes[0].primitives[0]: attributes is missing",
              [](json& j) { j["meshes"][0]["primitives"][0].erase("attributes"); }),
-        root("meshes[0].primitives[0].mode: 7 is above 6",
-             [](json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; }),
         root("meshes[0].primitives[0].attributes.POSITION: 9 is out of range",
              [](json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }),
         root("meshes[0].primitives[0].indices: 9 is out of range",
@@ -158,7 +196,7 @@ const std::vector<Malformed>& table() {
              [](json& j) { j["bufferViews"][0]["byteStride"] = 6; }),
         root("accessors[0]: has elements of 12 bytes",
              [](json& j) { j["bufferViews"][0]["byteStride"] = 8; }),
-        root("buffers[0]: has no uri",
+        root("accessors[0]: its buffer has no uri",
              [](json& j) {
                  j["buffers"] = {{{"byteLength", 36}}};
              }),
@@ -219,18 +257,6 @@ const std::vector<Malformed>& table() {
              [](json& j) {
                  j["textures"] = {{{"sampler", 2}}};
              }),
-        root("samplers[0].wrapS: 1 is not one of",
-             [](json& j) {
-                 j["samplers"] = {{{"wrapS", 1}}};
-             }),
-        root("samplers[0].magFilter: 9987 is not one of",
-             [](json& j) {
-                 j["samplers"] = {{{"magFilter", 9987}}};
-             }),
-        root("materials[0].alphaMode: \"GLASS\"",
-             [](json& j) {
-                 j["materials"] = {{{"alphaMode", "GLASS"}}};
-             }),
         root("materials[0].doubleSided: is a number",
              [](json& j) {
                  j["materials"] = {{{"doubleSided", 1}}};
@@ -246,10 +272,6 @@ const std::vector<Malformed>& table() {
         root("materials[0].normalTexture.index: 3 is out of range",
              [](json& j) {
                  j["materials"] = {{{"normalTexture", {{"index", 3}}}}};
-             }),
-        root("cameras[0].type: \"fisheye\"",
-             [](json& j) {
-                 j["cameras"] = {{{"type", "fisheye"}}};
              }),
         root("cameras[0]: perspective is missing",
              [](json& j) {
@@ -316,9 +338,19 @@ const std::vector<Malformed>& table() {
              addSparse(f, {0});
              f.root["accessors"][0]["sparse"].erase("indices");
          }},
-        {"images[0]: is neither PNG nor JPEG", [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
-        {"images[0]: ",
+        {"bufferViews[1]: ends at byte",
+         [](TinyGltf& f) {
+             addTexture(f, test::tinyPng(1, 1, 8, 2, "abc"));
+             f.root["bufferViews"][1]["byteLength"] = 100000;
+         }},
+        {"images[0]: 60000 x 1000 pixels are more than its bytes hold",
+         [](TinyGltf& f) { addTexture(f, test::tinyPng(60000, 1000, 8, 0, "")); }},
+        {"images[0]: is a WebP that is damaged or cut off",
+         [](TinyGltf& f) { addTexture(f, "RIFF....WEBPVP8 "); }},
+        {"images[0]: is a PNG that is cut off",
          [](TinyGltf& f) { addTexture(f, test::tinyPng(2, 2, 8, 2, std::string(12, 'x')).substr(0, 50)); }},
+        {"images[0]: is a damaged PNG: ",
+         [](TinyGltf& f) { addTexture(f, test::tinyPng(2, 2, 8, 2, std::string(4, 'x'))); }},
         {"images[0]: ", [](TinyGltf& f) { addTexture(f, "\xff\xd8\xff\xe0 not a picture"); }},
         {"images[0] gone.png: cannot be read",
          [](TinyGltf& f) {

@@ -92,6 +92,7 @@ class TinyGltf {
         "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})");
     std::string buffer;
+    std::size_t placeholder_bytes = 0;  ///< more than 0: there is a second buffer, which has no data
 
     TinyGltf() { accessor<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}); }
 
@@ -129,13 +130,25 @@ class TinyGltf {
         if (!buffer.empty() && !copy.contains("buffers"))
             copy["buffers"] = {{{"byteLength", buffer.size()},
                                 {"uri", "data:application/octet-stream;base64," + base64(buffer)}}};
+        addPlaceholder(copy);
         return copy.dump();
     }
 
-    std::string asGlb() const {
+    /// The JSON of a GLB, whose first buffer is the binary chunk.
+    nlohmann::json glbRoot() const {
         nlohmann::json copy = root;
         if (!copy.contains("buffers")) copy["buffers"] = {{{"byteLength", buffer.size()}}};
-        return glb(chunk(0x4e4f534a, copy.dump(), ' ') + chunk(0x004e4942, buffer, '\0'));
+        addPlaceholder(copy);
+        return copy;
+    }
+
+    std::string asGlb() const {
+        return glb(chunk(0x4e4f534a, glbRoot().dump(), ' ') + chunk(0x004e4942, buffer, '\0'));
+    }
+
+  private:
+    void addPlaceholder(nlohmann::json& copy) const {
+        if (placeholder_bytes > 0) copy["buffers"].push_back({{"byteLength", placeholder_bytes}});
     }
 };
 
