@@ -125,23 +125,39 @@ Owner labelAfter(const Crossings& c, Cluster cluster, Owner label) {
     return label;
 }
 
+/// Whether the cluster leaves several labels more often than it enters them: then it is no part of a chain.
+bool leavesSeveral(const Crossings& c, Cluster cluster) {
+    std::optional<Owner> found;
+    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
+        int surplus = 0;
+        for (std::size_t j = cluster.first; j < cluster.last; ++j)
+            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
+        if (surplus > 1 || (surplus == 1 && found && *found != c[i].before)) return true;
+        if (surplus == 1) found = c[i].before;
+    }
+    return false;
+}
+
 /// Whether the labels chain from `label` through all clusters that change it, and around the circle.
 bool chainsFrom(const Crossings& c, Owner label, bool circle, double limit) {
     const Owner start = label;
     for (std::size_t first = 0; first < c.size();) {
         const Cluster cluster{first, clusterEnd(c, first, limit)};
         const std::optional<Owner> expected = labelBefore(c, cluster);
-        if (expected && *expected != label) return false;
+        if (expected ? *expected != label : leavesSeveral(c, cluster)) return false;
         label = labelAfter(c, cluster, label);
         first = cluster.last;
     }
     return !circle || label == start;
 }
 
-/// The label before the first crossing. Near a tangent much may be doubted, and then a cluster may hide what
-/// its crossings say: so first as if little were.
+/// The label before the first crossing. Along a side it is the one that all crossings together leave once
+/// more than they enter it, if there is one: no order is needed. Near a tangent much may be doubted, and then
+/// a cluster may hide what its crossings say: so first as if little were.
 Owner startLabel(Crossings& c, Owner base, bool circle) {
     constexpr double kLittle = 0x1p-46;
+    if (!circle)
+        if (const std::optional<Owner> label = labelBefore(c, {0, c.size()})) return *label;
     Owner label = base;
     for (const double limit : {kLittle, HUGE_VAL}) {
         noteDoubts(c, limit);

@@ -75,6 +75,25 @@ TEST(Border, CornersBehindATangentLeaveTheCircleToItsOwner) {
     EXPECT_NEAR(s.share.at(C), 0.0, 2 * d);
 }
 
+/// A vertex on the border with many edges, the steepest of which rounding has moved furthest: the one that
+/// comes first is not the one that leads in.
+TEST(Border, AVertexOnTheBorderIsEnteredByItsOwnFirstLabel) {
+    const double v = 0.375, far = 0x1p-44;
+    const std::vector<BorderCrossing> fan{at(v - far, B, C, 4 * far), at(v, C, D, 0x1p-50),
+                                          at(v + 0x1p-50, A, B, 8 * far), at(v + far, D, 9, 8 * far)};
+    const Shared side = shared(fan, false, D);
+    EXPECT_EQ(side.conflicts, 0);
+    EXPECT_EQ(side.sum, std::int64_t{1} << 60);
+    EXPECT_NEAR(side.share.at(A), v, 2 * far);
+    EXPECT_NEAR(side.share.at(9), 1 - v, 2 * far);
+    auto closed = fan;
+    closed.push_back(at(-0.25, 9, A));
+    const Shared circle = shared(closed, true, D);
+    EXPECT_EQ(circle.conflicts, 0);
+    EXPECT_EQ(circle.sum, std::int64_t{1} << 60);
+    EXPECT_NEAR(circle.share.at(A), v + 0.25, 2 * far);
+}
+
 TEST(Border, AnOpenMapIsAConflictAndStillSumsToOne) {
     const Shared s = shared({at(0.0, A, B), at(0.25, C, A)}, true, A);
     EXPECT_EQ(s.conflicts, 1);
