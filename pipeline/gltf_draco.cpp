@@ -33,6 +33,13 @@ std::unique_ptr<draco::Mesh> decodeMesh(const GltfElement& extension, const tiny
     extension.fail("cannot be decoded: it asks for more memory than there is");
 }
 
+/// Draco's boolean and 64-bit values have no counterpart in glTF (and any byte may stand where a boolean
+/// should).
+bool isGltfType(draco::DataType type) {
+    return type >= draco::DT_INT8 && type <= draco::DT_FLOAT32 && type != draco::DT_INT64 &&
+           type != draco::DT_UINT64;
+}
+
 template <class T>
 bool appendValues(const draco::PointAttribute& attribute, std::size_t points, Bytes& bytes) {
     const int components = attribute.num_components();
@@ -101,6 +108,8 @@ class Unpacker {
         const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
         const auto* attribute = mesh_->GetAttributeByUniqueId(static_cast<std::uint32_t>(name.integer()));
         if (attribute == nullptr) name.fail("the compressed mesh has no attribute of that id");
+        if (!isGltfType(attribute->data_type()))
+            name.fail("the compressed mesh has it as a type that glTF lacks");
         const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
         if (attribute->num_components() != components || mesh_->num_points() != accessor.count)
             name.fail(fmt::format("has {} elements of {} components, accessors[{}] {} of {}",
