@@ -17,8 +17,11 @@ inline bool isStack(Owner owner) {
     return owner >= kFirstStack && owner != kBackground;
 }
 
-/// No stack has more see-through layers than this.
+/// Nothing is shaded through more see-through layers than this.
 inline constexpr std::size_t kMaxLayers = 255;
+
+/// Where nothing is shaded, beside a picture, stacks may be deeper, up to this.
+inline constexpr std::size_t kMostLayers = 4096;
 
 /// Thrown where a stack would have more.
 struct LayerLimit {

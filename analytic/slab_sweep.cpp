@@ -275,7 +275,7 @@ Owner SlabSweep::State::seenThrough(const LocalPlane* opaque, double x, const Be
     layers.clear();
     for (const LocalPlane* p : panes)  // pieces of one triangle are one layer
         if (layers.empty() || layers.back() != p->owner) layers.push_back(p->owner);
-    if (layers.size() > kMaxLayers) throw LayerLimit{origin + glm::dvec2(x, y_mid)};
+    if (layers.size() > kMostLayers) throw LayerLimit{origin + glm::dvec2(x, y_mid)};
     layers.push_back(opaque ? opaque->owner : kBackground);
     return out->stacks.owner(layers);
 }

@@ -4,12 +4,25 @@
 // What ends a stack is there whole, whatever its material says of alpha: visibility has decided that.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <span>
 
 #include "analytic/layer_stacks.h"
+#include "pipeline/error.h"
 #include "pipeline/shade.h"
 
 namespace edgewise {
+
+/// Throws FailureError naming the pixel that holds `at_px` where the stack has more than kMaxLayers
+/// see-through layers.
+inline void requireShadable(std::span<const Owner> layers, glm::dvec2 at_px) {
+    if (layers.size() <= kMaxLayers + 1) return;
+    throw FailureError(fmt::format("pixel {:.0f},{:.0f}", std::floor(at_px.x), std::floor(at_px.y)),
+                       fmt::format("{} triangles are seen through each other, the limit is {}",
+                                   layers.size() - 1, kMaxLayers));
+}
 
 /// Calls visit(k, share, colour) for each triangle of a stack, front to back, share = T_k alpha_k;
 /// shade(owner) gives its Shade. Returns what is left for the background: 0 where the stack ends in a

@@ -58,7 +58,7 @@ VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLi
     } catch (const LayerLimit& limit) {
         const glm::dvec2 at = limit.at_px - options.film_offset_px;
         throw FailureError(fmt::format("pixel {:.0f},{:.0f}", std::floor(at.x), std::floor(at.y)),
-                           fmt::format("more than {} triangles are seen through each other", kMaxLayers));
+                           fmt::format("more than {} triangles are seen through each other", kMostLayers));
     }
     for (Worker& w : workers) counts.add(w.out.counts);
     VisibleMap map;

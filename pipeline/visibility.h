@@ -14,7 +14,7 @@ struct VisibilityStageOptions {
 };
 
 /// The map of the grid's cells. Bit-identical for any number of threads. Throws Interrupted when cancelled,
-/// FailureError naming the pixel where more than kMaxLayers triangles are seen through each other.
+/// FailureError naming the pixel where more than kMostLayers triangles are seen through each other.
 VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLists& lists,
                       const VisibilityStageOptions& options, Progress& progress, VisibilityCounts& counts);
 

@@ -31,8 +31,10 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
         for (int x = in.film.crop.x0; x < in.film.crop.x1; ++x) {
             const std::size_t i = result.image.index(x, y);
+            const auto layers = sampled.stacks.layersOf(sampled.owner[i]);
+            requireShadable(layers, {x, y});
             const Shade seen = composite(
-                sampled.stacks.layersOf(sampled.owner[i]),
+                layers,
                 [&](Owner o) {
                     return shading.atPoint(o, {x + 0.5, y + 0.5});
                 },

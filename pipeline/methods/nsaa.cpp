@@ -127,6 +127,7 @@ class Nsaa {
 
     void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const {
+        requireShadable(layers, sample - offset());
         const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
         const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
             out.owners.push_back(
@@ -145,6 +146,7 @@ class Nsaa {
     }
 
     Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+        requireShadable(layers, sample_px - offset());
         return composite(
             layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in_.options.background);
     }

@@ -207,7 +207,7 @@ class TileSampler {
             const std::size_t sample = panes_[first].sample;
             for (end = first; end < panes_.size() && panes_[end].sample == sample; ++end)
                 layers_.push_back(scene_->triangles[panes_[end].triangle].owner);
-            if (layers_.size() > kMaxLayers) throw LayerLimit{positionOf(sample)};
+            if (layers_.size() > kMostLayers) throw LayerLimit{positionOf(sample)};
             layers_.push_back(out.owner[at(sample)]);
             out.owner[at(sample)] = nameOf(out.stacks);
         }
@@ -343,7 +343,7 @@ SampledOwners PointSampler::sample(const PixelBox& window) const {
     } catch (const LayerLimit& limit) {
         throw FailureError(
             fmt::format("pixel {:.0f},{:.0f}", std::floor(limit.at_px.x), std::floor(limit.at_px.y)),
-            fmt::format("more than {} triangles are seen through each other", kMaxLayers));
+            fmt::format("more than {} triangles are seen through each other", kMostLayers));
     }
     sortStacks(out);
     return out;

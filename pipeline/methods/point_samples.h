@@ -31,7 +31,7 @@ class PointSampler {
     PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side);
 
     /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by
-    /// tiles. Throws FailureError naming the pixel where a sample has more than kMaxLayers layers.
+    /// tiles. Throws FailureError naming the pixel where a sample has more than kMostLayers layers.
     SampledOwners sample(const PixelBox& window) const;
 
     /// Depth decisions that the rounded planes left open.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/ext/vector_int2_sized.hpp>
+#include <map>
 #include <span>
 
 #include "analytic/first_moments.h"
@@ -154,6 +156,7 @@ class PixelFilter {
         const Owner& owner = runs.front().owner;
         const auto layers = band.stacks.layersOf(owner);
         const glm::dvec2 corner(x, y);
+        requireShadable(layers, corner);
         const auto over = [&](const auto& shadeLayer) {
             return composite(layers, shadeLayer, in_.options.background);
         };
@@ -181,16 +184,46 @@ class PixelFilter {
         return total > 0.0 ? sum / total : glm::dvec2(0.5);
     }
 
-    /// The mean over N of the seen samples, spread evenly in their order; colours count by their alpha.
+    /// The mean over N of the seen samples; colours count by their alpha.
     Shade meanOver(Owner owner, const std::vector<glm::dvec2>& seen) const {
         if (const auto constant = shading_.constant(owner)) return *constant;
         const std::size_t count = std::min<std::size_t>(in_.options.shading.samples, seen.size());
+        const std::vector<glm::dvec2> spread = spreadOut(seen, count);
         Shade sum{glm::dvec3(0.0), 0.0};
         for (std::size_t i = 0; i < count; ++i) {
-            const Shade one = shading_.atPoint(owner, seen[(2 * i + 1) * seen.size() / (2 * count)]);
+            const Shade one = shading_.atPoint(owner, spread[i]);
             sum.color += one.alpha * one.color, sum.alpha += one.alpha;
         }
         return {sum.alpha > 0.0 ? sum.color / sum.alpha : sum.color, sum.alpha / double(count)};
+    }
+
+    /// `count` of the seen samples, spread over them: those in whose cells of the sample grid the points of
+    /// the R2 sequence (Roberts 2018: frac(j/g), frac(j/g^2), g^3 = g + 1) over their bounding box fall
+    /// first.
+    std::vector<glm::dvec2> spreadOut(const std::vector<glm::dvec2>& seen, std::size_t count) const {
+        constexpr double kPlastic = 1.32471795724474602596;
+        if (count == seen.size()) return seen;
+        const auto cellOf = [&](glm::dvec2 p) { return glm::i64vec2(glm::floor(p * double(per_side_))); };
+        const auto key = [](glm::i64vec2 cell) { return std::pair(cell.y, cell.x); };
+        std::map<std::pair<std::int64_t, std::int64_t>, glm::dvec2> left;
+        glm::i64vec2 low = cellOf(seen.front()), high = low;
+        for (const glm::dvec2& p : seen) {
+            left.emplace(key(cellOf(p)), p);
+            low = glm::min(low, cellOf(p)), high = glm::max(high, cellOf(p));
+        }
+        const glm::dvec2 size(high - low + std::int64_t(1));
+        std::vector<glm::dvec2> chosen;
+        // A region that the sequence hardly meets takes the rest in order.
+        for (std::size_t j = 1; chosen.size() < count && j <= 16 * seen.size() + 64; ++j) {
+            const glm::dvec2 at =
+                glm::fract(glm::dvec2(0.5) + double(j) * glm::dvec2(1 / kPlastic, 1 / (kPlastic * kPlastic)));
+            const auto found = left.find(key(low + glm::i64vec2(glm::floor(at * size))));
+            if (found == left.end()) continue;
+            chosen.push_back(found->second);
+            left.erase(found);
+        }
+        for (auto rest = left.begin(); chosen.size() < count; ++rest) chosen.push_back(rest->second);
+        return chosen;
     }
 
     OwnerPart hitPart(const SampleBand& band, int x, int y, std::span<const OwnerRun> runs,
@@ -229,6 +262,7 @@ class PixelFilter {
     }
 
     Shade shadeAt(const SampleBand& band, const Owner& owner, glm::dvec2 p_px) const {
+        requireShadable(band.stacks.layersOf(owner), p_px);
         return composite(
             band.stacks.layersOf(owner), [&](Owner o) { return shading_.atPoint(o, p_px); },
             in_.options.background);

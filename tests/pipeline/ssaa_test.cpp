@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "pipeline/error.h"
 #include "pipeline/methods/method.h"
@@ -39,6 +40,43 @@ TEST(SampleWeights, BoxIsUniform) {
 TEST(SampleWeights, RefusesASupportWithoutSamples) {
     EXPECT_THROW(SampleWeights(makePrefilter("box", 0.01, std::nullopt), 2), InputError);
     EXPECT_THROW(SampleWeights(makePrefilter("box", 4097.0, std::nullopt), 1), FailureError);
+}
+
+/// A flat surface whose red is x and whose green is y of the film, in pixels.
+Scene gradient(int side_px) {
+    const float far = 4.0f;
+    Geometry geometry =
+        test::makeGeometry({{glm::vec3(-far, -far, -1), glm::vec3(far, -far, -1), glm::vec3(far, far, -1)},
+                            {glm::vec3(-far, -far, -1), glm::vec3(far, far, -1), glm::vec3(-far, far, -1)}});
+    for (const glm::vec3& p : geometry.position_file)
+        geometry.color.push_back({(p.x + 1) / 2 * side_px, (1 - p.y) / 2 * side_px, 0, 1});
+    return test::makeScene({geometry});
+}
+
+TEST(Ssaa, AFewOfManySamplesAreSpreadOverThePixel) {
+    constexpr int kSidePx = 16;
+    const Scene scene = gradient(kSidePx);
+    const ResolvedCamera camera = test::makeOrthographic(1.0);
+    const Film film = test::makeFilm(kSidePx, kSidePx);
+    const Prefilter box = makePrefilter("box", {}, {});
+    for (const int per_side : {4, 8, 16})
+        for (const int count : {4, 8, 16}) {
+            RenderOptions options;
+            options.shading = {ShadingMode::kSamples, count};
+            Progress progress;
+            const MethodResult result = runMethod(parseMethod("ssaa:" + std::to_string(per_side)),
+                                                  {scene, camera, film, box, options, progress});
+            double squares = 0.0;
+            for (int y = 0; y < kSidePx; ++y)
+                for (int x = 0; x < kSidePx; ++x) {
+                    const glm::dvec4 at = result.image.rgba[result.image.index(x, y)];
+                    squares += std::pow(at.r - (x + 0.5), 2) + std::pow(at.g - (y + 0.5), 2);
+                }
+            // The mean of N independent points strays by 1/sqrt(12 N) px along each axis: spread ones by
+            // less.
+            const double strays = std::sqrt(squares / (2.0 * kSidePx * kSidePx));
+            EXPECT_LT(strays, 1.0 / std::sqrt(12.0 * count)) << "ssaa:" << per_side << " samples:" << count;
+        }
 }
 
 TEST(Methods, GrammarAndItsErrors) {
