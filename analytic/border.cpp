@@ -35,15 +35,20 @@ std::size_t clusterEnd(const Crossings& c, std::size_t first, double limit) {
     return last;
 }
 
+/// How often the cluster leaves a label, less how often it enters it.
+int surplus(const Crossings& c, Cluster cluster, Owner label) {
+    int count = 0;
+    for (std::size_t i = cluster.first; i < cluster.last; ++i)
+        count += (c[i].before == label) - (c[i].after == label);
+    return count;
+}
+
 /// The label that leads into the cluster: it is left once more often than it is entered. None or several:
 /// unknown.
 std::optional<Owner> labelBefore(const Crossings& c, Cluster cluster) {
     std::optional<Owner> found;
     for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        int surplus = 0;
-        for (std::size_t j = cluster.first; j < cluster.last; ++j)
-            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
-        if (surplus <= 0 || found == c[i].before) continue;
+        if (found == c[i].before || surplus(c, cluster, c[i].before) <= 0) continue;
         if (found) return std::nullopt;
         found = c[i].before;
     }
@@ -116,12 +121,8 @@ void sortCrossings(Crossings& c) {
 
 /// The label that a cluster leads to: it is entered once more often than it is left.
 Owner labelAfter(const Crossings& c, Cluster cluster, Owner label) {
-    for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        int surplus = 0;
-        for (std::size_t j = cluster.first; j < cluster.last; ++j)
-            surplus += (c[j].after == c[i].after) - (c[j].before == c[i].after);
-        if (surplus > 0) return c[i].after;
-    }
+    for (std::size_t i = cluster.first; i < cluster.last; ++i)
+        if (surplus(c, cluster, c[i].after) < 0) return c[i].after;
     return label;
 }
 
@@ -129,11 +130,9 @@ Owner labelAfter(const Crossings& c, Cluster cluster, Owner label) {
 bool leavesSeveral(const Crossings& c, Cluster cluster) {
     std::optional<Owner> found;
     for (std::size_t i = cluster.first; i < cluster.last; ++i) {
-        int surplus = 0;
-        for (std::size_t j = cluster.first; j < cluster.last; ++j)
-            surplus += (c[j].before == c[i].before) - (c[j].after == c[i].before);
-        if (surplus > 1 || (surplus == 1 && found && *found != c[i].before)) return true;
-        if (surplus == 1) found = c[i].before;
+        const int count = surplus(c, cluster, c[i].before);
+        if (count > 1 || (count == 1 && found && *found != c[i].before)) return true;
+        if (count == 1) found = c[i].before;
     }
     return false;
 }

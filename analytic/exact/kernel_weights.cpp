@@ -12,6 +12,7 @@ namespace {
 
 using boost::math::constants::pi;
 constexpr int kNodes = 40;
+const Real kRounding("1e-48");  // a hundred roundings of numbers up to 1 in 50 digits
 
 struct Edge {
     Real ax, ay, bx, by;  ///< from the sample
@@ -63,7 +64,7 @@ class Fan : public KernelWeights::Form {
         const Real ta = (e.ax * ex + e.ay * ey) / length, tb = (e.bx * ex + e.by * ey) / length;
         const Real square = radius_ * radius_ - h * h, c = square > 0 ? sqrt(square) : Real(0);
         const Real from = std::max(ta, Real(-c)), to = std::min(tb, c);
-        if (from >= to) return {angle(h, ta, tb), Real("1e-48")};
+        if (from >= to) return {angle(h, ta, tb), kRounding};
         Weight sum = inside(h, from, to);
         if (ta < from) sum.value += angle(h, ta, from);
         if (to < tb) sum.value += angle(h, to, tb);
@@ -76,10 +77,12 @@ class Fan : public KernelWeights::Form {
     }
 
     Weight inside(const Real& h, const Real& from, const Real& to) const {
-        if (cone_) return {h * (coneIntegral(h, to) - coneIntegral(h, from)), Real("1e-46") * abs(h)};
+        if (cone_)
+            return {h * (coneIntegral(h, to) - coneIntegral(h, from)),
+                    100 * kRounding * abs(h)};  // room for two lost digits
         const auto along = [&](const Real& t) { return h * g_(Real(h * h + t * t)); };
         const int parts = 1 + static_cast<int>(ceil((to - from) / stretch_));
-        Weight sum{0, Real("1e-48")};
+        Weight sum{0, kRounding};
         for (int i = 0; i < parts; ++i)
             add(sum,
                 judgedIntegral(from + (to - from) * i / parts, from + (to - from) * (i + 1) / parts, along));
@@ -164,7 +167,7 @@ class Strip : public KernelWeights::Form {
         const Real at = abscissa(middle);
         const std::size_t row = factor_.intervalOf(middle);
         if (at <= -R) return {};
-        if (at >= R) return {factor_.mass(row, y1) - factor_.mass(row, y0), Real("1e-47")};
+        if (at >= R) return {factor_.mass(row, y1) - factor_.mass(row, y0), 10 * kRounding};
         const std::size_t column = factor_.intervalOf(at);
         return judgedIntegral(y0, y1, [&](const Real& y) {
             return factor_.mass(column, abscissa(y)) * factor_.density(row, y);

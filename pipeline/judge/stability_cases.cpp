@@ -57,6 +57,19 @@ void addBar(StiffSceneBuilder& builder, dvec2 a, dvec2 b, double half, const Dep
     builder.add({a - n, b + n, a + n}, plane);
 }
 
+/// Six triangles around the sample, of `least` to `most` times the support's radius.
+void addTriangles(StiffSceneBuilder& builder, Random& random, glm::ivec2 pixel, double radius, double least,
+                  double most) {
+    for (int k = 0; k < 6; ++k) {
+        const dvec2 at = sampleOf(pixel) + random.around(0.5 * radius);
+        const double turn = random.angle(), size = radius * random.within(least, most);
+        std::array<dvec3, 3> corners;
+        for (int c = 0; c < 3; ++c)
+            corners[c] = dvec3(at + size * direction(turn + 2.0 * c), random.within(0, 1));
+        builder.add(corners);
+    }
+}
+
 StiffScene sliver(double angle, const Prefilter& filter, std::uint64_t seed) {
     Random random(seed, angle);
     StiffSceneBuilder builder(sampleOf(kPixel));
@@ -228,14 +241,7 @@ StiffScene farAway(double distance, const Prefilter& filter, std::uint64_t seed)
     Random random(seed, 1.0);  // the same scene at every distance, but for the grid
     const glm::ivec2 pixel(static_cast<int>(distance), static_cast<int>(0.7 * distance));
     StiffSceneBuilder builder(sampleOf(pixel));
-    for (int k = 0; k < 6; ++k) {
-        const dvec2 at = sampleOf(pixel) + random.around(0.5 * filter.radius);
-        const double turn = random.angle(), size = filter.radius * random.within(0.5, 2.0);
-        std::array<dvec3, 3> corners;
-        for (int c = 0; c < 3; ++c)
-            corners[c] = dvec3(at + size * direction(turn + 2.0 * c), random.within(0, 1));
-        builder.add(corners);
-    }
+    addTriangles(builder, random, pixel, filter.radius, 0.5, 2.0);
     return {builder.scene(), pixel};
 }
 
@@ -243,14 +249,7 @@ StiffScene farAway(double distance, const Prefilter& filter, std::uint64_t seed)
 StiffScene ordinary(double difficulty, const Prefilter& filter, std::uint64_t seed) {
     Random random(seed, difficulty);
     StiffSceneBuilder builder(sampleOf(kPixel));
-    for (int k = 0; k < 6; ++k) {
-        const dvec2 at = sampleOf(kPixel) + random.around(0.5 * filter.radius);
-        const double turn = random.angle(), size = filter.radius * random.within(0.3, 1.5);
-        std::array<dvec3, 3> corners;
-        for (int c = 0; c < 3; ++c)
-            corners[c] = dvec3(at + size * direction(turn + 2.0 * c), random.within(0, 1));
-        builder.add(corners);
-    }
+    addTriangles(builder, random, kPixel, filter.radius, 0.3, 1.5);
     return finish(builder);
 }
 
