@@ -10,6 +10,7 @@
 #include "pipeline/lighting.h"
 #include "pipeline/project.h"
 #include "pipeline/screen_map.h"
+#include "pipeline/shading_text.h"
 #include "pipeline/texture.h"
 
 namespace edgewise {
@@ -64,7 +65,7 @@ class Shading {
 
   private:
     struct Surface;
-    struct Location;
+    using Location = f64::SurfacePoint;
     Surface surfaceOf(Owner owner) const;
     Location locate(const Surface& surface, glm::dvec2 image_plane) const;
     glm::dvec3 cornerEye(const Surface& surface, int corner) const;
