@@ -73,6 +73,7 @@ DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
         std::min({properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight,
                   properties.limits.maxViewportDimensions[0], properties.limits.maxViewportDimensions[1],
                   properties.limits.maxImageDimension2D});
+    traits.max_stage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
     traits.max_storage_bytes = properties.limits.maxStorageBufferRange;
     traits.max_heap_bytes = largestLocalHeap(device.getMemoryProperties());
     if (const auto family = queueFamilyOf(device);
