@@ -276,6 +276,10 @@ std::optional<Shade> Shading::constant(Owner owner) const {
     return constant(surfaceOf(owner));
 }
 
+bool Shading::varies(Owner owner) const {
+    return varies(surfaceOf(owner));
+}
+
 Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     const Surface surface = surfaceOf(owner);
     if (const auto shade = constant(surface)) return *shade;

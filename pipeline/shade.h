@@ -63,6 +63,17 @@ class Shading {
     /// From the sample to the point where closest() shades.
     glm::dvec2 closestOffset(Owner owner, glm::dvec2 sample_px) const;
 
+    /// constant() has nothing.
+    bool varies(Owner owner) const;
+
+    const Lighting& lighting() const { return lighting_; }
+    const ScreenMap& screenMap() const { return map_; }
+
+    /// Of an image that some material uses so.
+    const MipPyramid& pyramid(std::uint32_t image, TexelKind kind) const {
+        return *(kind == TexelKind::kNormal ? normal_pyramids_ : pyramids_)[image];
+    }
+
   private:
     struct Surface;
     using Location = f64::SurfacePoint;

@@ -20,7 +20,7 @@ layout(std430, binding = kOwnerRecordsBinding) readonly buffer Owners { OwnerRec
 layout(std430, binding = kTableBinding) readonly buffer Table { double table[]; };
 layout(std430, binding = kSurfacesBinding) readonly buffer Surfaces { SurfaceRecord surfaces[]; };
 layout(std430, binding = kMaterialsBinding) readonly buffer Materials { MaterialRecord materials[]; };
-layout(std430, binding = kPiecesBinding) readonly buffer Pieces { double pieces[]; };
+layout(std430, binding = kTrianglesBinding) readonly buffer Triangles { GpuTriangle triangles[]; };
 layout(std430, binding = kPositionsBinding) readonly buffer Positions { double positions[]; };
 layout(std430, binding = kAttributesBinding) readonly buffer Attributes { double attributes[]; };
 layout(std430, binding = kPlaneNormalsBinding) readonly buffer PlaneNormals { double plane_normals[]; };
@@ -56,7 +56,7 @@ dvec4 attribute4(uint at) { return dvec4(attribute3(at), attributes[at + 3u]); }
 dvec3 planeNormal(uint plane) {
     return dvec3(plane_normals[3u * plane], plane_normals[3u * plane + 1u], plane_normals[3u * plane + 2u]);
 }
-dvec2 pieceCorner(uint piece, uint k) { return dvec2(pieces[6u * piece + 2u * k], pieces[6u * piece + 2u * k + 1u]); }
+dvec2 pieceCorner(uint piece, uint k) { return dvec2(triangles[piece].p_px[2u * k], triangles[piece].p_px[2u * k + 1u]); }
 dvec3 backgroundColor() { return dvec3(frame.background_r, frame.background_g, frame.background_b); }
 
 // ---- Textures.
@@ -295,7 +295,7 @@ dvec4 shadeTriangle(uint index, dvec2 sample_px, inout int turns) {
     if (!uses(kUsesShading)) return dvec4(0.0);
     Corners c = Corners(owner.vertex0, owner.vertex1, owner.vertex2, surfaces[owner.surface]);
     MaterialRecord material = materials[c.surface.material];
-    turns += int(4u * owner.pieces + material.maps + frame.lights);
+    turns += int(5u * owner.pieces + material.maps + frame.lights + 4u);
     if (turns > kBudget) return dvec4(0.0);
     SurfacePoint at = pointOf(owner, c, sample_px);
     Look look = lookAt(owner, material, c, at);
@@ -364,6 +364,7 @@ dvec4 shadeEntry(uint entry, inout int turns) {
     bool once = points == 0u || (uses(kUsesTable) && allFromTable(owner, first, count));
     dvec4 sum = dvec4(0.0);
     for (uint i = 0u; i < (once ? 1u : points) && turns <= kBudget; ++i) {
+        ++turns;
         dvec2 offset = once ? dvec2(0.0) : dvec2(point_offset[2u * (begin + i)], point_offset[2u * (begin + i) + 1u]);
         sum = plus(sum, shadeLayers(owner, first, count, plus(sample_px, offset), turns));
     }

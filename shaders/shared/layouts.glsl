@@ -176,7 +176,7 @@ struct ShadeFrame {
     uint perspective;
     uint uniform_view;
     uint lights;
-    uint rig;
+    uint pad0;
 };
 
 /// Of one dispatch.
@@ -198,7 +198,7 @@ const int kOwnerRecordsBinding = 5;
 const int kTableBinding = 6;
 const int kSurfacesBinding = 7;
 const int kMaterialsBinding = 8;
-const int kPiecesBinding = 9;        // 6 doubles each
+const int kTrianglesBinding = 9;     // GpuTriangle
 const int kPositionsBinding = 10;
 const int kAttributesBinding = 11;
 const int kPlaneNormalsBinding = 12;
@@ -216,9 +216,14 @@ const int kBank3Binding = 23;
 const int kShadeBindings = 24;
 
 // ---- Blending: blend.frag.
+struct BlendPush {
+    double contrast;  // of an edge
+    uint width;
+    uint pad0;
+};
 const int kBlendOffsetsBinding = 0;
 const int kBlendWeightsBinding = 1;
-const int kBlendColorsBinding = 2;
+const int kBlendShadesBinding = 2;
 const int kBlendRgbaBinding = 3;
 const int kBlendEdgeBinding = 4;
 const int kBlendBindings = 5;
