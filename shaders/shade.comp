@@ -41,6 +41,7 @@ const uint kFirstStack = 0x80000000u;
 const uint kBackground = 0xffffffffu;
 
 bool uses(uint what) { return (kUses & what) != 0u; }
+bool isStack(uint owner) { return uses(kUsesStacks) && owner >= kFirstStack && owner != kBackground; }
 
 #include "shared/vectors.glsl"
 #include "shared/surface_point.glsl"
@@ -313,7 +314,7 @@ dvec4 shadeLayers(uint owner, uint first, uint count, dvec2 sample_px, inout int
     double left = 1.0;
     for (uint k = 0u; k < count && turns <= kBudget; ++k) {
         ++turns;
-        uint layer = uses(kUsesStacks) && owner >= kFirstStack ? stack_layers[first + k] : owner;
+        uint layer = isStack(owner) ? stack_layers[first + k] : owner;
         if (layer == kBackground) break;
         dvec4 shade = shadeTriangle(layer, sample_px, turns);
         bool last = k + 1u == count;
@@ -325,7 +326,7 @@ dvec4 shadeLayers(uint owner, uint first, uint count, dvec2 sample_px, inout int
 
 bool allFromTable(uint owner, uint first, uint count) {
     for (uint k = 0u; k < count; ++k) {
-        uint layer = uses(kUsesStacks) && owner >= kFirstStack ? stack_layers[first + k] : owner;
+        uint layer = isStack(owner) ? stack_layers[first + k] : owner;
         if (layer != kBackground && (owner_record[layer].flags & kFromTable) == 0u) return false;
     }
     return true;
@@ -353,7 +354,7 @@ precise dvec4 meanOf(dvec4 sum, uint count) { return sum / double(count); }
 
 dvec4 shadeEntry(uint entry, inout int turns) {
     uint owner = entry_owner[entry], first = 0u, count = 1u;
-    if (uses(kUsesStacks) && owner >= kFirstStack && owner != kBackground) {
+    if (isStack(owner)) {
         first = stack_first[owner - kFirstStack];
         count = stack_first[owner - kFirstStack + 1u] - first;
     }

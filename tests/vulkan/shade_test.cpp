@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/shipped_picture.h"
+#include "tests/vulkan/material_scenes.h"
 #include "tests/vulkan/shaded_picture.h"
 
 namespace edgewise::vulkan {
@@ -45,6 +46,39 @@ TEST_F(ShadeTest, ShippedScenesHaveTheBitsOfTheCpu) {
         edges += c.edges;
     }
     EXPECT_GT(edges, 1000u);
+}
+
+/// What random scenes have met.
+struct Seen {
+    std::uint32_t uses = 0;
+    std::size_t entries = 0, stacks = 0, points = 0, edges = 0, handed_back = 0;
+    void add(const Comparison& c) {
+        uses |= c.uses, entries += c.entries, stacks += c.stacks, points += c.points, edges += c.edges;
+        handed_back += c.handed_back;
+    }
+};
+
+TEST_F(ShadeTest, MaterialsOfEveryKindHaveTheBitsOfTheCpu) {
+    constexpr std::uint64_t kSeed = 50;
+    Seen seen;
+    for (std::uint64_t i = 0; i < 16; ++i) {
+        test::MaterialFeatures features;
+        if (i % 2 == 1) features.lights = false;
+        if (i % 4 == 2) features.alpha = false;
+        if (i % 8 == 4) features.textures = false;
+        if (i % 8 == 5) features.lit = false;
+        if (i % 8 == 6) features.normals = false;
+        if (i % 8 == 7) features.colors = false;
+        const test::MaterialScene made(kSeed + i, features);
+        const Comparison c = test::comparePicture(made.scene, made.camera, made.film,
+                                                  makePrefilter("gaussian", {}, {}), onBlue(), true);
+        expectTheSame(fmt::format("seed {}", kSeed + i), c);
+        seen.add(c);
+    }
+    EXPECT_EQ(seen.uses, 2 * kUsesAlpha - 1 - kUsesPoints);
+    EXPECT_GT(seen.entries, 50000u);
+    EXPECT_GT(seen.stacks, 10000u);
+    EXPECT_GT(seen.edges, 10000u);
 }
 
 }  // namespace
