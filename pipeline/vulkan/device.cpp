@@ -65,10 +65,15 @@ DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
     traits.real_gpu = properties.deviceType != vk::PhysicalDeviceType::eCpu;
     traits.fp64 = base.shaderFloat64, traits.int64 = base.shaderInt64;
     traits.int64_atomics = newer.shaderBufferInt64Atomics;
-    traits.geometry_shader = base.geometryShader && base.fragmentStoresAndAtomics;
+    traits.geometry_shader = base.geometryShader, traits.fragment_stores = base.fragmentStoresAndAtomics;
     traits.conservative_rasterization =
         contains(device.enumerateDeviceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
+    traits.max_target_px =
+        std::min({properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight,
+                  properties.limits.maxViewportDimensions[0], properties.limits.maxViewportDimensions[1],
+                  properties.limits.maxImageDimension2D});
+    traits.max_stage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
     traits.max_storage_bytes = properties.limits.maxStorageBufferRange;
     traits.max_heap_bytes = largestLocalHeap(device.getMemoryProperties());
     if (const auto family = queueFamilyOf(device);
@@ -101,7 +106,7 @@ vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physical, const Devi
     auto& base = chain.get<vk::PhysicalDeviceFeatures2>().features;
     base.shaderFloat64 = traits.fp64, base.shaderInt64 = traits.int64;
     base.geometryShader = traits.geometry_shader;
-    base.fragmentStoresAndAtomics = base.vertexPipelineStoresAndAtomics = traits.geometry_shader;
+    base.fragmentStoresAndAtomics = traits.fragment_stores;
     base.sampleRateShading = physical.getFeatures().sampleRateShading;
     chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics = traits.int64_atomics;
     return {physical, info};
@@ -144,6 +149,7 @@ std::optional<std::string> whatIsMissing(const DeviceTraits& traits) {
     if (!traits.fp64) missing.push_back("64-bit floats");
     if (!traits.int64) missing.push_back("64-bit integers");
     if (!traits.int64_atomics) missing.push_back("64-bit atomics");
+    if (!traits.fragment_stores) missing.push_back("stores from fragments");
     if (missing.empty()) return std::nullopt;
     return fmt::format("{} has no {}", traits.name, fmt::join(missing, ", "));
 }

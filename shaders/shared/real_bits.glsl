@@ -1,6 +1,7 @@
 // GLSL only: the macros of shared_text.h and the powers of two, for real = double or float. C++ has
 // analytic/real_lanes.h. EDGEWISE_REAL(x) is no macro here: whoever loads the text replaces it (README.md).
 #define EDGEWISE_FN
+#define EDGEWISE_EXACT_FN precise
 #define EDGEWISE_PRECISE precise
 #define EDGEWISE_INIT
 #define EDGEWISE_END

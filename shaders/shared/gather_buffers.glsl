@@ -1,0 +1,8 @@
+// GLSL only: what gather's shaders read.
+#include "shared/real_bits.glsl"
+#include "shared/layouts.glsl"
+#include "shared/cell_overlap.glsl"
+
+layout(std430, binding = kGatherTriangles) readonly buffer Triangles { GpuTriangle triangles[]; };
+layout(std430, binding = kGatherHistogram) buffer Histogram { uint histogram[]; };
+layout(push_constant) uniform Push { GatherGrid grid; };
