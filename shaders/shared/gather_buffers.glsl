@@ -6,3 +6,6 @@
 layout(std430, binding = kGatherTriangles) readonly buffer Triangles { GpuTriangle triangles[]; };
 layout(std430, binding = kGatherHistogram) buffer Histogram { uint histogram[]; };
 layout(push_constant) uniform Push { GatherGrid grid; };
+
+/// Cell i of the 2 x 2 from `first` on, in rows.
+uint directCell(uint first, int i) { return first + uint(i & 1) + uint((i >> 1) * grid.columns); }

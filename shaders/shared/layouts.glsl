@@ -24,13 +24,12 @@ struct GatherGrid {
 /// Of gather's shaders.
 const int kGatherTriangles = 0;  // GpuTriangle
 const int kGatherHistogram = 1;  // of each cell: triangles counted, or still to be filled in
-const int kGatherDirect = 2;     // of each triangle: the only cell that it may meet, or kNoCell
-const int kGatherWide = 3;       // triangles that may meet several cells
+const int kGatherDirect = 2;     // of each narrow triangle: its first cell, and 4 bits: which of 2 x 2 it meets
+const int kGatherWide = 3;       // triangles whose box is more than 2 x 2 cells
 const int kGatherDraw = 4;       // the indirect command that rasterizes them
 const int kGatherOffsets = 5;    // of each cell, into the ids
 const int kGatherIds = 6;        // of triangles, by cell
 const int kGatherBindings = 7;
-const uint kNoCell = 0xffffffffu;
 
 /// Of scan: what one workgroup adds up, and one invocation of it.
 const uint kScanItems = 16;
