@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "pipeline/vulkan/exact_spirv.h"
 #include "pipeline/vulkan/shader.h"
 
 namespace edgewise::vulkan {
@@ -22,9 +23,8 @@ vk::raii::PipelineLayout makeLayout(const Device& device, const vk::raii::Descri
 
 vk::raii::Pipeline makePipeline(const Device& device, const vk::raii::PipelineLayout& layout,
                                 std::string_view shader, const Specialization& constants) {
-    const auto words = spirv(shader);
-    const vk::raii::ShaderModule module(device.handle(),
-                                        vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
+    const std::vector<std::uint32_t> words = withExactArithmetic(spirv(shader));
+    const vk::raii::ShaderModule module(device.handle(), vk::ShaderModuleCreateInfo({}, words));
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, 4);
     const vk::SpecializationInfo special(static_cast<std::uint32_t>(entries.size()), entries.data(),
