@@ -35,6 +35,12 @@ void main() {
     if (gl_GlobalInvocationID.x >= push.count) return;
     uint id = push.first + gl_GlobalInvocationID.x;
     GpuCell c = cells[id];
+    if (c.count > kCellCandidates) {
+        cells[id].untouched = 1u;
+        cells[id].state = kCellHanded;
+        handed[atomicAdd(status.handed, 1u)] = id;
+        return;
+    }
     Cell cell = cellOf(c);
     dvec2 center = 0.5lf * (cell.min + cell.max);
     uint count = 0u, panes = 0u, occluder = kNoTag;

@@ -5,10 +5,9 @@ layout(local_size_x = 64) in;
 #include "shared/visibility_leaf.glsl"
 
 bool passesThrough(GpuLine line, dvec2 p) {
-    bool found = false;
-    for (uint k = 0u; k < line.through_count; ++k)
-        found = found || dvec2(line.through[2u * k], line.through[2u * k + 1u]) == p;
-    return found;
+    return (line.through_count > 0u && dvec2(line.through[0], line.through[1]) == p) ||
+           (line.through_count > 1u && dvec2(line.through[2], line.through[3]) == p) ||
+           (line.through_count > 2u && dvec2(line.through[4], line.through[5]) == p);
 }
 
 /// Lines that meet in a vertex by construction cross nowhere else.
@@ -18,22 +17,21 @@ bool meetInVertex(GpuLine p, GpuLine q) {
     if (p_edge && q_edge) return pa == qa || pa == qb || pb == qa || pb == qb;
     if (p_edge) return passesThrough(q, pa) || passesThrough(q, pb);
     if (q_edge) return passesThrough(p, qa) || passesThrough(p, qb);
-    bool found = false;
-    for (uint k = 0u; k < p.through_count; ++k)
-        found = found || passesThrough(q, dvec2(p.through[2u * k], p.through[2u * k + 1u]));
-    return found;
+    return (p.through_count > 0u && passesThrough(q, dvec2(p.through[0], p.through[1]))) ||
+           (p.through_count > 1u && passesThrough(q, dvec2(p.through[2], p.through[3]))) ||
+           (p.through_count > 2u && passesThrough(q, dvec2(p.through[4], p.through[5])));
 }
 
 /// What may meet, in the host's order: i + 256 j; of a vertex that line i passes through, j = 128 + its number.
 uint candidates() {
     uint count = 0u;
-    for (uint i = 0u; i < leaf.lines; ++i) {
+    for (uint i = 0u; i < leaf.lines; ++i, spent += 6u) {
         GpuLine p = lines[lineAt(i)];
         OrderKey p0 = keyFrom(p.in0), p1 = keyFrom(p.in1);
         if (!keyLess(p0, p1)) continue;
         for (uint k = 0u; k < p.through_count; ++k)
             words[wordAt(kWordPairs + count++)] = i + 256u * (128u + k);
-        for (uint j = i + 1u; j < leaf.lines; ++j) {
+        for (uint j = i + 1u; j < leaf.lines; ++j, ++spent) {
             OrderKey q0 = keyFrom(lines[lineAt(j)].in0), q1 = keyFrom(lines[lineAt(j)].in1);
             if (!keyLess(q0, q1) || keyLess(p1, q0) || keyLess(q1, p0)) continue;
             // Abscissae carry a few roundings of the cell's size, far below the grid.
@@ -87,10 +85,11 @@ void main() {
     if (!openLeaf()) return;
     uint count = candidates();
     bool fits = count <= kLeafWords - kWordPairs;
-    for (uint k = 0u; fits && k < count; ++k) {
+    for (uint k = 0u; fits && k < count; ++k, ++spent) {
         uint both = words[wordAt(kWordPairs + k)];
         fits = meet(both & 255u, both >> 8);
     }
     if (!fits) handBack();
+    countLoops();
     leaves[leaf_slot] = leaf;
 }

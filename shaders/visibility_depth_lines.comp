@@ -14,9 +14,9 @@ uint candidatePairs() {
     dvec2 hi = frame.cell.max - frame.origin + dvec2(1.1641532182693481e-10lf, 1.1641532182693481e-10lf);
     uint begin = cells[leaf.cell].begin, count = 0u;
     bool every = (push.flags & kEveryDepthLine) != 0;
-    for (uint i = 0u; i < leaf.triangles; ++i) {
+    for (uint i = 0u; i < leaf.triangles; ++i, spent += 2u) {
         LocalPlane p = localPlaneAt(i);
-        for (uint j = i + 1u; j < leaf.triangles; ++j) {
+        for (uint j = i + 1u; j < leaf.triangles; ++j, ++spent) {
             LocalPlane q = localPlaneAt(j);
             if (p.plane == q.plane || p.owner == q.owner) continue;
             if (!every && ordered(p, q, lo, hi)) continue;
@@ -72,7 +72,10 @@ bool addPair(uint i, uint j, uint first_line, uint first_flat) {
     if ((push.flags & kEveryDepthLine) == 0 && !changesOrder(i, j, c)) return true;
     if (c.A.hi == 0.0lf && c.B.hi == 0.0lf) return true;
     uint known = first_line;
-    while (known < leaf.lines && LineRef(lines[lineAt(known)].line_i, lines[lineAt(known)].line_j) != c.ref) ++known;
+    while (known < leaf.lines && LineRef(lines[lineAt(known)].line_i, lines[lineAt(known)].line_j) != c.ref) {
+        ++known;
+        ++spent;
+    }
     bool fresh = known == leaf.lines;
     if (fresh) {
         for (uint h = first_flat; h < leaf.horizontals; ++h)
@@ -90,11 +93,12 @@ void main() {
     if (!openLeaf()) return;
     uint count = candidatePairs(), first_line = leaf.lines, first_flat = leaf.horizontals;
     bool fits = true;
-    for (uint k = 0u; fits && k < count; ++k) {
+    for (uint k = 0u; fits && k < count; ++k, spent += 60u) {
         uint both = words[wordAt(kWordPairs + k)];
         fits = addPair(both & 255u, both >> 8, first_line, first_flat);
     }
-    atomicAdd(status.depth_lines, leaf.lines + leaf.horizontals - first_line - first_flat);
+    leaf.depth_lines = leaf.lines + leaf.horizontals - first_line - first_flat;
     if (!fits) handBack();
+    countLoops();
     leaves[leaf_slot] = leaf;
 }

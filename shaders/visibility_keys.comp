@@ -40,10 +40,11 @@ OrderKey sortKey(uint i, bool of_events) {
 /// The order of items, or of events, in words[from ..]; merges of growing runs. Returns where it ended up.
 uint sortedOrder(uint count, bool of_events) {
     uint from = kWordItems, to = kWordItems2;
+    spent += count + 24u;
     for (uint i = 0u; i < count; ++i) words[wordAt(from + i)] = i;
     for (uint width = 1u; width < count; width *= 2u) {
         uint p = 0u, q = min(width, count), p_end = q, q_end = min(2u * width, count);
-        for (uint k = 0u; k < count; ++k) {
+        for (uint k = 0u; k < count; ++k, ++spent) {
             uint a = words[wordAt(from + min(p, count - 1u))], b = words[wordAt(from + min(q, count - 1u))];
             bool second = p >= p_end || (q < q_end && keyLess(sortKey(b, of_events), sortKey(a, of_events)));
             words[wordAt(to + k)] = second ? b : a;
@@ -116,7 +117,7 @@ void sortEntries() {
         OrderKey in0 = keyFrom(lines[lineAt(i)].in0);
         if (!keyLess(in0, keyFrom(lines[lineAt(i)].in1))) continue;
         uint j = leaf.entries++;
-        for (; j > 0u && keyLess(in0, keyFrom(lines[lineAt(words[wordAt(kWordEntry + j - 1u)])].in0)); --j)
+        for (; j > 0u && keyLess(in0, keyFrom(lines[lineAt(words[wordAt(kWordEntry + j - 1u)])].in0)); --j, ++spent)
             words[wordAt(kWordEntry + j)] = words[wordAt(kWordEntry + j - 1u)];
         words[wordAt(kWordEntry + j)] = i;
     }
@@ -141,8 +142,9 @@ void main() {
         sortHorizontals();
         sortEntries();
         clearTracks();
-        atomicAdd(status.swept, 1u);
-        atomicAdd(status.slabs, leaf.keys - 1u);
     }
+    // What was counted above, and the loops of the other functions.
+    spent += 2u * leaf.lines + 4u * leaf.events + item_count + leaf.horizontals * (leaf.horizontals + 2u) + 40u;
+    countLoops();
     leaves[leaf_slot] = leaf;
 }

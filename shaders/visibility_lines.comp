@@ -50,7 +50,7 @@ void main() {
     if (leaf_slot >= push.count) return;
     uint id = leaf_cells[push.first + leaf_slot];
     GpuCell c = cells[id];
-    leaf = GpuLeaf(id, kLeafRuns, push.run, c.count, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, kBackground, 0u);
+    leaf = GpuLeaf(id, kLeafRuns, 0u, c.count, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, kBackground, 0u, 0u, 0u, 0u, 0u);
     frame = frameOf(c);
     if (c.count > kLeafTriangles) {
         handBack();

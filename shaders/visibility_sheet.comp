@@ -22,6 +22,7 @@ bool enter(uint base, uint room, uint triangle, uint k) {
     uint slot = ((ends.x * 0x9e3779b1u) ^ (ends.y * 0x85ebca6bu)) >> 7 & (room - 1u);
     for (;;) {
         uint known = max(slotWith(base + slot), slotAgainst(base + slot));
+        ++spent;
         if (known == 0u || endsOf(known) == ends) break;
         slot = (slot + 1u) & (room - 1u);
     }
@@ -36,7 +37,7 @@ bool enter(uint base, uint room, uint triangle, uint k) {
 bool coveredOnce(GpuCell c, dvec2 p) {
     int inside = 0;
     bool sure = true;
-    for (uint i = 0u; i < c.count; ++i) {
+    for (uint i = 0u; i < c.count; ++i, spent += 5u) {
         InnerDistance d = innerDistance(triangleAt(kept[c.begin + i]), p);
         sure = sure && abs(d.value) > d.error;
         inside += d.value > 0.0lf ? 1 : 0;
@@ -54,10 +55,10 @@ bool crossingBefore(GpuCrossing a, GpuCrossing b) {
 bool sortCrossings(uint base, uint count) {
     uint moves = 0u, most = gl_WorkGroupSize.x == 1u ? 30000u : 3000u;
     for (uint gap = 57u; gap > 0u; gap = gap == 57u ? 23u : (gap == 23u ? 10u : (gap == 10u ? 4u : (gap == 4u ? 1u : 0u))))
-        for (uint i = gap; i < count; ++i) {
+        for (uint i = gap; i < count; ++i, spent += 2u) {
             GpuCrossing item = crossings[base + i];
             uint j = i;
-            for (; j >= gap && crossingBefore(item, crossings[base + j - gap]); j -= gap, ++moves)
+            for (; j >= gap && crossingBefore(item, crossings[base + j - gap]); j -= gap, ++moves, ++spent)
                 crossings[base + j] = crossings[base + j - gap];
             crossings[base + j] = item;
             if (moves > most) return false;
@@ -68,7 +69,7 @@ bool sortCrossings(uint base, uint count) {
 /// 0: labels do not chain; 1: they do; 2: two crossings at one place, in an order that is the host's.
 uint chains(uint base, uint count) {
     uint result = 1u;
-    for (uint i = 0u; i + 1u < count; ++i) {
+    for (uint i = 0u; i + 1u < count; ++i, ++spent) {
         GpuCrossing a = crossings[base + i], b = crossings[base + i + 1u];
         if (a.row != b.row) continue;
         if (a.x == b.x && a.slope == b.slope) return 2u;
@@ -81,7 +82,7 @@ uint chains(uint base, uint count) {
 uint holderOf(GpuCell c, dvec2 p) {
     uint holder = kept[c.begin];
     double best = 0.0lf;
-    for (uint i = 0u; i < c.count; ++i) {
+    for (uint i = 0u; i < c.count; ++i, spent += 5u) {
         double d = innerDistance(triangleAt(kept[c.begin + i]), p).value;
         if (i > 0u && !(best < d)) continue;
         best = d;
@@ -95,9 +96,11 @@ void emitRows(GpuCell c, uint base, uint count) {
     double start = c.min_x + border(0.0lf).rest, middle = 0.5lf * (cell.min.x + cell.max.x);
     uint next = 0u;
     for (int row = int(floor(c.min_y - 0.5lf)); double(row) + 0.5lf <= cell.max.y; ++row) {
+        spent += 10u;
         if (!(double(row) + 0.5lf > c.min_y)) continue;
         uint first = next;
         while (next < count && crossings[base + next].row == row) ++next;
+        spent += 2u * (next - first);
         uint at = atomicAdd(status.rows, 1u + next - first);
         addRow(at, start, row, next > first ? crossings[base + first].before : kBackground, kNoTag);
         for (uint k = first; k < next; ++k)
@@ -118,25 +121,24 @@ GpuPiece pieceOf(uint64_t key, LineRef line, uint left, uint right, FinePoint a,
     return GpuPiece(from, to, halves.x, halves.y, line.i, line.j, left, right, kNoTag, 0u);
 }
 
-void main() {
-    if (gl_GlobalInvocationID.x >= push.count) return;
-    uint id = push.first + gl_GlobalInvocationID.x;
+void certify(uint id) {
     GpuCell c = cells[id];
     if (c.state != kCellOpen) return;
     // One workgroup size for small cells, one for large: the others' turn is another dispatch.
-    if ((c.count > kSheetSmall) != (gl_WorkGroupSize.x == 1u)) return;
-    if (c.count > kSheetTriangles) {
+    if ((c.count > push.sheet_small) != (gl_WorkGroupSize.x == 1u)) return;
+    if (c.count > push.sheet_most) {
         handBack(id);
         return;
     }
     Cell cell = cellOf(c);
     uint room = 16u;
     while (room < 3u * c.count) room *= 2u;
+    spent = 40u + 3u * room;
     uint base = atomicAdd(status.table, room), list = atomicAdd(status.crossings, 4u * c.count + 96u);
     if (base + room > status.table_room || list + 4u * c.count + 96u > status.crossings_room) return;
     for (uint i = 0u; i < 2u * room; ++i) table[2u * base + i] = 0u;
     bool paired = true;
-    for (uint i = 0u; i < 3u * c.count; ++i) {
+    for (uint i = 0u; i < 3u * c.count; ++i, spent += 2u) {
         uint triangle = kept[c.begin + i / 3u], k = i % 3u;
         if (!mayMeet(cornerAt(triangle, k), cornerAt(triangle, k == 2u ? 0u : k + 1u), cell)) continue;
         if (!enter(base, room, triangle, k)) {
@@ -163,7 +165,7 @@ void main() {
     CellFrame frame = frameOf(c);
     uint first_piece = atomicAdd(status.pieces, edges), found = 0u, most = 4u * c.count + 96u;
     bool fits = first_piece + edges <= status.pieces_room;
-    for (uint e = 0u; e < edges; ++e) {
+    for (uint e = 0u; e < edges; ++e, spent += 3u) {
         uint along = slotWith(base + e) - 1u, against = slotAgainst(base + e) - 1u;
         uint left = triangles[along >> 2].owner, right = triangles[against >> 2].owner;
         uint ref = min(along, against);  // triangle * 4 + edge: the order of LineRefs
@@ -185,7 +187,7 @@ void main() {
         if (!emitted) piece.left = piece.right = kBackground;  // nothing
         if (fits) pieces[first_piece + e] = piece;
         if (!emitted || flat_edge) continue;
-        for (int row = int(floor(line.enter.grid.y - 0.5lf)); double(row) + 0.5lf <= line.exit.grid.y; ++row) {
+        for (int row = int(floor(line.enter.grid.y - 0.5lf)); double(row) + 0.5lf <= line.exit.grid.y; ++row, ++spent) {
             FineCoordinate y = sampleRow(row);
             OrderKey key = orderKey(y, frame.origin.y);
             if (keyLess(key, line.in0) || !keyLess(key, line.in1)) continue;
@@ -207,4 +209,10 @@ void main() {
         cells[id].state = kCellDone;
         atomicAdd(status.certified, 1u);
     }
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x >= push.count) return;
+    certify(push.first + gl_GlobalInvocationID.x);
+    countLoops();
 }

@@ -10,11 +10,10 @@ layout(constant_id = 1) const bool kExact = false;  // comparisons that the filt
 #include "shared/visibility_leaf.glsl"
 #include "shared/exact_sign.glsl"
 
-// Loops of all invocations that run together are stopped, silently, after 65535: eight of them have 8191 each. One
-// slab takes 5800 at most, for its lists are bounded.
-const uint kBudget = 2000u;
-// A leaf that needs exact comparisons runs alone.
-const uint kExactBudget = 50000u;
+// After this many loops a leaf waits for the next dispatch; a slab takes some hundreds. A leaf that needs exact
+// comparisons runs alone.
+const uint kBudget = 3000u;
+const uint kExactBudget = 30000u;
 const uint kExactLoops = 400u;  // of one comparison
 
 const uint kBorderLine = 0xffffffffu;  // in the place of a line: the cell's border
@@ -23,13 +22,12 @@ const double kUnsure = 1.7763568394002505e-14lf;
 // Canonical points are rounded to multiples of 2^-76 px: each of one line's two ends may be off by one of them.
 const double kSame = 2.6469779601696886e-23lf;
 
-uint spent = 0u;
 bool undecided = false;
 uint mask_bits;
 double y_mid;
 OrderKey top_key, bottom_key;
 FineCoordinate top_y, bottom_y;
-uint below_first, below_count, compared_exactly = 0u, closings = 0u;
+uint below_first, below_count;
 
 FineCoordinate ordinateOf(GpuKey key) { return FineCoordinate(key.y[0], key.y[1]); }
 double localY(FineCoordinate y) { return (y.grid - frame.origin.y) + y.rest; }
@@ -129,7 +127,7 @@ void locate() {
         tracks[lineAt(i)].x_bottom = x_bottom;
         tracks[lineAt(i)].x_mid = 0.5lf * (tracks[lineAt(i)].x_top + x_bottom);
     }
-    for (uint k = 1u; k < leaf.order; ++k, ++spent) {
+    for (uint k = 1u; k < leaf.order; ++k, spent += 2u) {
         uint i = ordered_line(k), j = k;
         for (; j > 0u && compare(ordered_line(j - 1u), i) > 0; --j, ++spent)
             words[wordAt(kWordOrder + j)] = ordered_line(j - 1u);
@@ -148,11 +146,11 @@ dd exactMiddle(uint line, double border_grid) {
 
 /// Decided at the canonical middle, which knows nothing of the cell's frame.
 bool exactlyInFront(LocalPlane p, LocalPlane q, uint left, uint right) {
-    if (!kExact || spent + kExactLoops > kExactBudget + 10000u) {
+    if (!kExact || spent + kExactLoops > 2u * kExactBudget) {
         undecided = true;
         return false;
     }
-    ++compared_exactly;
+    ++leaf.compared_exactly;
     spent += kExactLoops;
     dd x = ddAdd(exactMiddle(left, frame.cell.min.x), exactMiddle(right, frame.cell.max.x));
     dd y = ddAdd(offsetFrom(top_y, push.anchor_y), offsetFrom(bottom_y, push.anchor_y));
@@ -168,7 +166,7 @@ uint seen(uint left, uint right) {
     double x = 0.5lf * (x0 + x1);
     bool any_seen = false;
     LocalPlane best = LocalPlane(0.0lf, 0.0lf, 0.0lf, 0.0lf, 0u, kBackground);
-    for (uint bits = mask_bits; bits != 0u; bits &= bits - 1u, ++spent) {
+    for (uint bits = mask_bits; bits != 0u; bits &= bits - 1u, spent += kExact ? 8u : 1u) {
         LocalPlane p = localPlaneAt(uint(findLSB(bits)));
         bool nearer = true;
         if (any_seen) {
@@ -197,7 +195,7 @@ void sweep(uint slab) {
     uint owner = 0u, first = kBorderLine, k = 0u;
     below_count = 0u;
     // The first turn asks what is seen at the left border, each other one passes the lines of one place.
-    for (uint turn = 0u; turn == 0u || k < leaf.order; ++turn, ++spent) {
+    for (uint turn = 0u; turn == 0u || k < leaf.order; ++turn, spent += 3u) {
         uint chosen = kBorderLine;
         if (turn > 0u) {
             first = chosen = ordered_line(k);
@@ -244,7 +242,7 @@ void updatePieces(uint slab) {
 }
 
 void emitRows() {
-    for (int row = int(floor(top_y.grid - 0.5lf)); double(row) + 0.5lf <= bottom_y.grid; ++row, ++spent) {
+    for (int row = int(floor(top_y.grid - 0.5lf)); double(row) + 0.5lf <= bottom_y.grid; ++row, spent += 2u) {
         FineCoordinate y = sampleRow(row);
         OrderKey key = orderKey(y, frame.origin.y);
         if (keyLess(key, top_key) || !keyLess(key, bottom_key)) continue;
@@ -295,7 +293,7 @@ void collectBreaks(uint first) {
     addBreaks(kWordAbove, leaf.above_first, leaf.above_count, 1);
     addBreaks(kWordBelow, below_first, below_count, -1);
     uint count = min(break_count, kLeafBreaks);
-    for (uint i = 2u; i < count; ++i, ++spent) {
+    for (uint i = 2u; i < count; ++i, spent += 2u) {
         GpuBreak item = breaks[breakAt(i)];
         FineCoordinate x = FineCoordinate(item.x[0], item.x[1]);
         uint j = i;
@@ -349,7 +347,7 @@ void emitHorizontal(FineCoordinate from, FineCoordinate to, uint over, uint unde
             line = LineRef(flat_line.line_i, flat_line.line_j);
         }
     }
-    if (!found && difference(to, from) > kUnsure) ++closings;
+    if (!found && difference(to, from) > kUnsure) ++leaf.closings;
     emit(key, line, over, under, finePoint(to, top_y), finePoint(from, top_y));
 }
 
@@ -357,7 +355,7 @@ void emitHorizontal(FineCoordinate from, FineCoordinate to, uint over, uint unde
 void emitPairs(FineCoordinate from, FineCoordinate to, uint first) {
     uint p = 0u, q = 0u;
     int p_left = 0, q_left = 0;
-    for (;; ++spent) {
+    for (;; spent += 4u) {
         while (p_left == 0 && p < balance_count) {
             p_left = max(0, balanceOf(p++));
             ++spent;
@@ -387,7 +385,7 @@ void emitHorizontals() {
     balance_count = 0u;
     addBalance(leaf.above_first, 1);
     addBalance(below_first, -1);
-    for (uint i = 0u; i + 1u < min(break_count, kLeafBreaks); ++i, ++spent) {
+    for (uint i = 0u; i + 1u < min(break_count, kLeafBreaks); ++i, spent += 10u) {
         GpuBreak here = breaks[breakAt(i)];
         addBalance(here.after, here.above);
         addBalance(here.before, -here.above);
@@ -415,7 +413,7 @@ void main() {
     if (!openLeaf()) return;
     bool fits = true;
     uint budget = kExact ? kExactBudget : kBudget;
-    for (; leaf.slab + 1u < leaf.keys && spent < budget && fits; ++leaf.slab, ++spent) {
+    for (; leaf.slab + 1u < leaf.keys && spent < budget && fits; ++leaf.slab, spent += 50u) {
         readSlab(leaf.slab);
         startSlab();
         locate();
@@ -441,8 +439,12 @@ void main() {
         for (uint k = 0u; k < leaf.order; ++k) closePiece(ordered_line(k), pointFrom(lines[lineAt(ordered_line(k))].exit));
         leaf.state = kLeafDone;
         leaf_cells[2u * status.cells_room + push.first + leaf_slot] = 1u;
-        atomicAdd(status.exact_depth, compared_exactly);
-        atomicAdd(status.closings, closings);
+        atomicAdd(status.swept, 1u);
+        atomicAdd(status.slabs, leaf.keys - 1u);
+        atomicAdd(status.depth_lines, leaf.depth_lines);
+        atomicAdd(status.exact_depth, leaf.compared_exactly);
+        atomicAdd(status.closings, leaf.closings);
     }
+    countLoops();
     leaves[leaf_slot] = leaf;
 }

@@ -76,12 +76,13 @@ class VisibilityPasses::Work {
     void level(std::uint32_t first, std::uint32_t count, bool roots);
     void sheets(std::uint32_t first, std::uint32_t count);
     void sweepLeaves(std::uint32_t first, std::uint32_t count, bool exact);
+    void handBackBatch(std::uint32_t begin, std::uint32_t size);
     void handBack(const VisibilityInput& input, CellOutput& out);
     void merge(const VisibilityInput& input, CellOutput& out);
     template <class Record>
     void submit(Record&& record);
     void dispatch(const vk::raii::CommandBuffer& commands, ComputePass& pass, std::uint32_t first,
-                  std::uint32_t count, std::uint32_t group, std::uint32_t run = 0);
+                  std::uint32_t count, std::uint32_t group);
     GpuVisibilityStatus& status() const { return status_->view<GpuVisibilityStatus>(1)[0]; }
     Buffer& grown(std::optional<Buffer>& buffer, const char* name, std::size_t bytes);
 
@@ -177,9 +178,8 @@ void VisibilityPasses::Work::submit(Record&& record) {
 }
 
 void VisibilityPasses::Work::dispatch(const vk::raii::CommandBuffer& commands, ComputePass& pass,
-                                      std::uint32_t first, std::uint32_t count, std::uint32_t group,
-                                      std::uint32_t run) {
-    push_.first = first, push_.count = count, push_.run = run;
+                                      std::uint32_t first, std::uint32_t count, std::uint32_t group) {
+    push_.first = first, push_.count = count;
     pass.dispatch(commands, bindings_, Groups::covering(count, group), push_);
     const vk::MemoryBarrier all(vk::AccessFlagBits::eMemoryWrite,
                                 vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite);
@@ -206,7 +206,7 @@ void VisibilityPasses::Work::sheets(std::uint32_t first, std::uint32_t count) {
         const std::uint32_t begin = i;
         std::size_t table = 0, crossings = 0;
         for (; i < first + count; ++i) {
-            if (cells[i].state != kCellOpen || cells[i].count > kSheetTriangles) continue;
+            if (cells[i].state != kCellOpen || cells[i].count > push_.sheet_most) continue;
             const std::size_t t = tableNeed(cells[i].count), c = crossingsNeed(cells[i].count);
             if (i > begin && (table + t > table_most || crossings + c > crossings_most)) break;
             table += t, crossings += c;
@@ -223,20 +223,35 @@ void VisibilityPasses::Work::sheets(std::uint32_t first, std::uint32_t count) {
     }
 }
 
+/// Leaves whose loops the device may have stopped are the host's; what it emitted of them counts for nothing.
+void VisibilityPasses::Work::handBackBatch(std::uint32_t begin, std::uint32_t size) {
+    const auto lists = leaf_cells_->all<std::uint32_t>();
+    const auto leaves = leaves_->view<GpuLeaf>(size);
+    for (std::uint32_t i = 0; i < size; ++i) {
+        std::uint32_t& done = lists[2 * status().cells_room + begin + i];
+        done = 0;
+        if (leaves[i].state != kLeafHanded && leaves[i].state != kLeafUndecided)
+            handed_->all<std::uint32_t>()[status().handed++] = lists[begin + i];
+    }
+    status().overruns = 0;
+}
+
 void VisibilityPasses::Work::sweepLeaves(std::uint32_t first, std::uint32_t count, bool exact) {
     ComputePass& sweep = exact ? exact_sweep_ : sweep_;
+    const std::uint32_t group = exact ? 1 : kGroup;
     for (std::uint32_t done = 0; done < count; done += kLeafBatch) {
         const std::uint32_t begin = first + done, size = std::min<std::uint32_t>(kLeafBatch, count - done);
         status().unfinished = 0;
         submit([&](const auto& commands) {
             for (ComputePass* pass : {&lines_, &depth_lines_, &crossings_, &keys_})
                 dispatch(commands, *pass, begin, size, kGroup);
-            dispatch(commands, sweep, begin, size, exact ? 1 : kGroup);
+            dispatch(commands, sweep, begin, size, group);
         });
-        while (status().unfinished > 0) {
+        while (status().unfinished > 0 && status().overruns == 0) {
             status().unfinished = 0;
-            submit([&](const auto& commands) { dispatch(commands, sweep, begin, size, exact ? 1 : kGroup); });
+            submit([&](const auto& commands) { dispatch(commands, sweep, begin, size, group); });
         }
+        if (status().overruns > 0) handBackBatch(begin, size);
     }
 }
 
@@ -263,6 +278,12 @@ bool VisibilityPasses::Work::attempt(const VisibilityInput& input, const Rooms& 
     while (count > 0) {
         level(first, count, first == 0);
         if (overflows()) return false;
+        if (status().overruns >
+            0) {  // sheets too large for the device's loops: fewer of them together, or none
+            push_.sheet_most = push_.sheet_small == 0 ? push_.sheet_most / 2 : push_.sheet_most;
+            push_.sheet_small = 0;
+            return false;
+        }
         first += count;
         count = status().cells - first;
     }
@@ -277,7 +298,10 @@ void VisibilityPasses::Work::handBack(const VisibilityInput& input, CellOutput& 
     for (const std::uint32_t id : handed_->view<std::uint32_t>(status().handed)) {
         const GpuCell& c = cells_->all<GpuCell>()[id];
         const glm::dvec2 low(c.min_x, c.min_y);
-        const auto list = kept_->all<std::uint32_t>().subspan(c.begin, c.count);
+        const bool listed = c.untouched != 0 && id < input.grid.size();
+        const auto list = (listed ? ids_ : &*kept_)
+                              ->all<std::uint32_t>()
+                              .subspan(c.untouched != 0 ? c.source : c.begin, c.count);
         visibility.runPart(input.scene, {low, low + c.size_px}, {c.origin_x, c.origin_y}, list, input.options,
                            out);
     }
@@ -313,6 +337,7 @@ void VisibilityPasses::Work::run(const PassGraph&, const Buffer& triangles, cons
                   (input.scene.see_through.empty() ? 0 : kSomeSeeThrough);
     push_.max_triangles = static_cast<std::uint32_t>(options.max_triangles);
     push_.min_cell_px = options.min_cell_px;
+    push_.sheet_small = kSheetSmall, push_.sheet_most = kSheetTriangles;
     report = {};
     const std::size_t total = offsets.view<std::uint32_t>(input.grid.size() + 1)[input.grid.size()];
     Rooms rooms{4 * input.grid.size() + 4096, 4 * total + 4096, 3 * total + 8192,

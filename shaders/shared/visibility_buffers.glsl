@@ -40,10 +40,12 @@ layout(push_constant) uniform Push { VisibilityPush push; };
 
 ScreenTriangle triangleAt(uint i) {
     ScreenTriangle t;
-    for (int k = 0; k < 3; ++k) {
-        t.p_px[k] = dvec2(triangles[i].p_px[2 * k], triangles[i].p_px[2 * k + 1]);
-        t.vertex[k] = triangles[i].vertex[k];
-    }
+    t.p_px[0] = dvec2(triangles[i].p_px[0], triangles[i].p_px[1]);
+    t.p_px[1] = dvec2(triangles[i].p_px[2], triangles[i].p_px[3]);
+    t.p_px[2] = dvec2(triangles[i].p_px[4], triangles[i].p_px[5]);
+    t.vertex[0] = triangles[i].vertex[0];
+    t.vertex[1] = triangles[i].vertex[1];
+    t.vertex[2] = triangles[i].vertex[2];
     t.owner = triangles[i].owner;
     t.plane = triangles[i].plane;
     return t;
@@ -86,6 +88,12 @@ LeafLine emptyLine(Carrier carrier) {
     line.slope = line.x_low = line.x_high = 0.0lf;
     return line;
 }
+/// Turns of loops, one more for each loop that is met: also a loop that is passed by takes one.
+uint spent = 0u;
+void countLoops() {
+    if (spent >= (gl_WorkGroupSize.x == 1u ? kLoopsAlone : kLoopsTogether)) atomicAdd(status.overruns, 1u);
+}
+
 FineCoordinate sampleRow(int row) { return FineCoordinate(double(row) + 0.5lf, 0.0lf); }
 
 void addRow(uint at, double x, int row, uint owner, uint tag) {

@@ -4,7 +4,7 @@
 /// A square cell and its candidates, kept[begin] .. kept[begin + count].
 struct GpuCell {
     double min_x, min_y, size_px, origin_x, origin_y;
-    uint source, begin, count, panes, state, pad;  // source: where the candidates are read from
+    uint source, begin, count, panes, state, untouched;  // source: where the candidates are read from
 };
 
 /// analytic/cell.h: SegmentPiece. `tag`: kNoTag, or the place in the list of leaves of the one that it is of; a
@@ -73,14 +73,16 @@ struct GpuLeaf {
     uint lines, horizontals, events, keys;
     uint slab, order, entries, next_entry;
     uint next_event, next_horizontal, above_first, above_count;
+    uint depth_lines, compared_exactly, closings, pad;
 };
 
 /// What is common to all shaders of the stage.
 struct VisibilityPush {
     double anchor_x, anchor_y;
     int x0_px, y0_px, columns, flags;
-    uint first, count, run, max_triangles;
+    uint first, count, max_triangles, sheet_small;
     double min_cell_px;
+    uint sheet_most, pad;
 };
 
 /// Counters that the shaders share, and the room that the buffers have.
@@ -90,7 +92,7 @@ struct GpuVisibilityStatus {
     uint cells_room, kept_room, pieces_room, rows_room;
     uint certified, slabs, depth_lines, exact_depth;
     uint hidden, closings, table, table_room;
-    uint crossings, crossings_room, swept, pad;
+    uint crossings, crossings_room, swept, overruns;
 };
 
 // VisibilityPush::flags
@@ -131,10 +133,16 @@ const uint kWordItems = 352u;   // order of key items
 const uint kWordItems2 = 752u;
 const uint kWordPairs = 352u;   // candidate pairs, before keys are sorted
 const uint kLeafWords = 1632u;
-/// A cell of more triangles is certified by the host.
+/// A sheet of more triangles is certified by the host; up to kSheetSmall, eight cells share a budget of loops.
 const uint kSheetTriangles = 500u;
-/// Up to here eight of them share a budget of loops.
 const uint kSheetSmall = 64u;
+/// A cell with more candidates is the host's.
+const uint kCellCandidates = 3000u;
+/// Loops of all invocations that run together, eight of them where the device is a program, are stopped after 65535,
+/// silently. Every shader counts its own, also those that others wait for: where one of eight has had as many as this,
+/// some may have been stopped.
+const uint kLoopsTogether = 8191u;
+const uint kLoopsAlone = 65535u;
 
 // Bindings.
 const int kVisTriangles = 0;

@@ -123,5 +123,33 @@ TEST_P(ShippedScene, HasTheHostsMap) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(edgewise::test::shippedRecipes()),
                          [](const auto& recipe) { return edgewise::test::nameOf(recipe.param); });
 
+class RandomScene : public vulkan::test::DeviceTest,
+                    public testing::WithParamInterface<witness::SceneKind> {};
+
+TEST_P(RandomScene, HasTheHostsMap) {
+    constexpr std::uint64_t kFirstSeed = 1, kLastSeed = 6;
+    witness::HardCases met;
+    VisibilityReport sum;
+    for (std::uint64_t seed = kFirstSeed; seed <= kLastSeed; ++seed) {
+        const witness::RandomScene random = witness::makeRandomScene(GetParam(), seed);
+        met += witness::countHardCases(random.scene);
+        const CellGrid grid(
+            Window{random.centre.x - 20, random.centre.y - 20, random.centre.x + 20, random.centre.y + 20});
+        const Compared c =
+            compare(random.scene, grid, {}, fmt::format("{} seed {}", nameOf(GetParam()), seed));
+        sum.leaves += c.device.leaves, sum.exact += c.device.exact, sum.handed += c.device.handed;
+        sum.counts.add(c.device.counts);
+        if (HasFailure()) break;
+    }
+    fmt::print("{}, seeds {} to {}: {}; {} leaves, {} exact, {} handed back, {} certified\n",
+               nameOf(GetParam()), kFirstSeed, kLastSeed, toString(met), sum.leaves, sum.exact, sum.handed,
+               sum.counts.certified);
+    EXPECT_GT(sum.leaves + sum.counts.certified, sum.handed);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RandomScene, testing::ValuesIn(witness::allSceneKinds()), [](const auto& kind) {
+    return edgewise::test::testName(witness::nameOf(kind.param));
+});
+
 }  // namespace
 }  // namespace edgewise::vulkan
