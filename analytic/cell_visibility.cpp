@@ -34,8 +34,14 @@ Overlap overlap(const ScreenTriangle& t, const Cell& cell) {
 void CellVisibility::run(const ScreenScene& scene, const Cell& cell,
                          std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
                          CellOutput& out) {
+    runPart(scene, cell, cell.min, candidates, options, out);
+}
+
+void CellVisibility::runPart(const ScreenScene& scene, const Cell& part, glm::dvec2 origin,
+                             std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
+                             CellOutput& out) {
     stack_.assign(candidates.begin(), candidates.end());
-    visit(scene, cell, cell.min, 0, stack_.size(), options, out);
+    visit(scene, part, origin, 0, stack_.size(), options, out);
 }
 
 /// Keeps on the stack's top, of [begin, end), what meets the cell and no opaque triangle hides there. Returns

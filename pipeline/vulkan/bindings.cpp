@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "pipeline/vulkan/exact_spirv.h"
 #include "pipeline/vulkan/shader.h"
 
 namespace edgewise::vulkan {
@@ -24,7 +25,7 @@ vk::raii::PipelineLayout makeLayout(const Device& device, vk::ShaderStageFlags s
 }
 
 vk::raii::ShaderModule makeModule(const Device& device, std::string_view shader) {
-    const auto words = spirv(shader);
+    const std::vector<std::uint32_t> words = withExactArithmetic(spirv(shader));
     return {device.handle(), vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data())};
 }
 
