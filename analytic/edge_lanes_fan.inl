@@ -103,30 +103,48 @@ EDGEWISE_FN void circleCrossing(const LaneKernel& kernel, const Line& line, real
     store((1.0 + amplified) * 0x1p-51, first, terms.doubt[slot]);
 }
 
-EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+/// The segment against the support's disk: which ends are inside (0 or 1), where it enters and leaves, what is inside.
+struct DiskCut {
+    real in_a, in_b, through, entry, exit;
+    mask touched;
+    Piece piece;
+};
+
+EDGEWISE_FN DiskCut cutByDisk(const LaneKernel& kernel, const Line& line) {
     const double R2 = kernel.radius * kernel.radius;
     const real one = splat(1.0), none = splat(0.0);
     const real c = halfChord(line.h, splat(kernel.radius));
-    const real in_a = line.a_x * line.a_x + line.a_y * line.a_y <= R2 ? one : none;
-    const real in_b = line.b_x * line.b_x + line.b_y * line.b_y <= R2 ? one : none;
+    DiskCut cut;
+    cut.in_a = line.a_x * line.a_x + line.a_y * line.a_y <= R2 ? one : none;
+    cut.in_b = line.b_x * line.b_x + line.b_y * line.b_y <= R2 ? one : none;
     const real chord = (line.t_a < 0.0 ? one : none) * (line.t_b > 0.0 ? one : none) * (c > 0.0 ? one : none);
-    const real through = chord * (1.0 - in_a) * (1.0 - in_b);
-    const mask touched = in_a + in_b + through > 0.5;
-    terms.touched |= laneSet(touched, first);
-    if (!any(touched)) {
-        store(toFixed(none), first, terms.value);
-        return;
-    }
-    Piece piece;
+    cut.through = chord * (1.0 - cut.in_a) * (1.0 - cut.in_b);
+    cut.touched = cut.in_a + cut.in_b + cut.through > 0.5;
     // A short piece may count as leaving where its line enters, and an end may lie past the rounded chord: the
     // crossing is on the segment all the same. [E4]
-    const real entry = larger(smaller(-c, line.t_b), line.t_a), exit = smaller(larger(c, line.t_a), line.t_b);
-    piece.t1 = in_a > 0.5 ? line.t_a : entry;
-    piece.t2 = in_b > 0.5 ? line.t_b : exit;
-    piece.length = in_a + in_b > 1.5 ? line.length : larger(piece.t2 - piece.t1, none);
-    piece.length = touched ? piece.length : none;
-    const real value = flushTiny(fanTerm(kernel, line.h, piece));
-    store(toFixed(touched ? value : none), first, terms.value);
-    circleCrossing(kernel, line, entry, in_a, in_b, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
-    circleCrossing(kernel, line, exit, in_a, in_b, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
+    cut.entry = larger(smaller(-c, line.t_b), line.t_a), cut.exit = smaller(larger(c, line.t_a), line.t_b);
+    cut.piece.t1 = cut.in_a > 0.5 ? line.t_a : cut.entry;
+    cut.piece.t2 = cut.in_b > 0.5 ? line.t_b : cut.exit;
+    cut.piece.length = cut.in_a + cut.in_b > 1.5 ? line.length : larger(cut.piece.t2 - cut.piece.t1, none);
+    cut.piece.length = cut.touched ? cut.piece.length : none;
+    return cut;
+}
+
+/// Returns the inside parts before they are rounded to fixed point.
+EDGEWISE_FN real fanTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+    const DiskCut cut = cutByDisk(kernel, line);
+    const real none = splat(0.0);
+    terms.touched |= laneSet(cut.touched, first);
+    if (!any(cut.touched)) {
+        store(toFixed(none), first, terms.value);
+        return none;
+    }
+    const real term = flushTiny(fanTerm(kernel, line.h, cut.piece));
+    const real value = cut.touched ? term : none;
+    store(toFixed(value), first, terms.value);
+    circleCrossing(kernel, line, cut.entry, cut.in_a, cut.in_b, (1.0 - cut.in_a) * (cut.in_b + cut.through) > 0.5, 0,
+                   first, terms);
+    circleCrossing(kernel, line, cut.exit, cut.in_a, cut.in_b, (1.0 - cut.in_b) * (cut.in_a + cut.through) > 0.5, 1,
+                   first, terms);
+    return value;
 }
