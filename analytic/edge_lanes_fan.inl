@@ -16,13 +16,16 @@ EDGEWISE_FN real phi1Mean(const RuleView& rule, real h, real t, real step) {
     return sum;
 }
 
-/// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it. [E9]
+/// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it.
+/// Nodes are counted from the end nearer to the foot point: from the other they would lose their digits near the
+/// sample, where phi1 is large. [E9]
 EDGEWISE_FN real gaussianMean(const LaneKernel& kernel, real h, Piece piece) {
     const real sigmas = piece.length / kernel.sigma;
     const real wanted = nearestInteger(sigmas * (1.0 / kLongestPieceSigmas) + 0.5);  // ceil, or one more
     const real parts = wanted < 1.0 ? splat(1.0) : wanted;
     const real part = sigmas / parts;
-    const real hs = h * kernel.inverse_reach, ts = piece.t1 * kernel.inverse_reach;
+    const real start = absolute(piece.t1) <= absolute(piece.t2) ? piece.t1 : -piece.t2;  // phi1 is even in t
+    const real hs = h * kernel.inverse_reach, ts = start * kernel.inverse_reach;
     const real step = piece.length * kernel.inverse_reach / parts;
     real mean = splat(0.0);
     double lower = -1.0;
@@ -57,20 +60,22 @@ EDGEWISE_FN real polyMean(const LaneKernel& kernel, real h, Piece piece) {
     return mean;
 }
 
-/// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. [E9]
+/// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. The
+/// parts' lengths add up to the piece's own, which may be far better known than the ends: on the circle both forms of
+/// g agree, so that a cut may err along the line, but no length may be lost. [E9]
 EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece) {
-    const real c = halfChord(h, splat(kernel.inner_radius));
-    const real first_end = smaller(piece.t2, -c), second_start = larger(piece.t1, c);
-    real angle = splat(0.0);
-    const real first = piece.t2 < -c ? piece.length : first_end - piece.t1;
-    const real second = piece.t1 > c ? piece.length : piece.t2 - second_start;
-    angle = angle + (piece.t1 < first_end ? subtendedAngle(h, piece.t1, first_end, first) : splat(0.0));
-    angle = angle + (second_start < piece.t2 ? subtendedAngle(h, second_start, piece.t2, second) : splat(0.0));
-    const real t1 = larger(piece.t1, -c), t2 = smaller(piece.t2, c);
-    const real rest = larger(t2 - t1, splat(0.0));
-    piece.length = piece.t1 < -c ? rest : (piece.t2 > c ? rest : piece.length);
-    piece.t1 = t1;
-    piece.t2 = t2;
+    const real c = halfChord(h, splat(kernel.inner_radius)), none = splat(0.0);
+    const mask whole = (piece.t2 <= -c) | (c <= 0.0);
+    real before = smaller(larger(-c - piece.t1, none), piece.length);
+    before = whole ? piece.length : before;
+    real after = smaller(larger(piece.t2 - c, none), piece.length - before);
+    after = piece.t1 >= c ? piece.length - before : after;
+    const real before_end = whole ? piece.t2 : -c, after_start = larger(piece.t1, c);
+    real angle = before > 0.0 ? subtendedAngle(h, piece.t1, before_end, before) : none;
+    angle = angle + (after > 0.0 ? subtendedAngle(h, after_start, piece.t2, after) : none);
+    piece.length = (piece.length - before) - after;
+    piece.t1 = larger(piece.t1, -c);
+    piece.t2 = smaller(piece.t2, c);
     return angle * 0.15915494309189535;
 }
 

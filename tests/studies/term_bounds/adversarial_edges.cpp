@@ -93,7 +93,8 @@ Edge farAndLong(const HardSpots& s, Dice& dice) {
 Edge tinyEdge(const HardSpots& s, Dice& dice) {
     const double at = dice.coin() ? dice.uniform(0, 0.99) : tiny(dice);
     const Vec a = onGrid(at * s.R * unit(dice));
-    return {a, onGrid(a + smallNumber(dice, 7, 32) * s.R * unit(dice)) + (dice.coin() ? steps(dice) : Vec(0))};
+    return {a,
+            onGrid(a + smallNumber(dice, 7, 32) * s.R * unit(dice)) + (dice.coin() ? steps(dice) : Vec(0))};
 }
 
 Edge nearRadial(const HardSpots& s, Dice& dice) {
@@ -238,7 +239,8 @@ bool isHard(Category category, const HardSpots& s, const Edge& e) {
         case Category::kTiny:
             return size(d) <= nearness(s);
         case Category::kNearRadial:
-            return lineDistance(e, Vec(0)) <= std::max(kHard * size(e.a), 5 * kGridPx) && e.a.x * d.x + e.a.y * d.y > 0;
+            return lineDistance(e, Vec(0)) <= std::max(kHard * size(e.a), 5 * kGridPx) &&
+                   e.a.x * d.x + e.a.y * d.y > 0;
         case Category::kAxisParallel:
             return std::min(std::abs(d.x), std::abs(d.y)) <= std::max(kHard * maxNorm(d), 5 * kGridPx);
         case Category::kEndOnBorder:

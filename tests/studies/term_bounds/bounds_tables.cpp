@@ -11,10 +11,10 @@ bool ofStrips(Claim claim) {
 
 std::string rowText(const BoundsRow& r) {
     const double bound = boundOf(r.claim);
-    return fmt::format("| {} | {} | {} | {} | {:.3g} | {:.3g} | {} | {} | {:.1e} | {:.1e} | {} |\n", nameOf(r.claim),
-                       nameOf(r.category), r.cases, r.hard, r.judged, r.screened,
-                       std::isinf(bound) ? "none" : fmt::format("{:.0f}", bound), r.judged_cases, r.disagreement,
-                       r.reported, r.worst_kernel);
+    return fmt::format("| {} | {} | {} | {} | {:.3g} | {:.3g} | {} | {} | {:.1e} | {:.1e} | {} |\n",
+                       nameOf(r.claim), nameOf(r.category), r.cases, r.hard, r.judged, r.screened,
+                       std::isinf(bound) ? "none" : fmt::format("{:.0f}", bound), r.judged_cases,
+                       r.disagreement, r.reported, r.worst_kernel);
 }
 
 std::string claimTable(const BoundsResult& result, Claim claim) {
@@ -41,20 +41,26 @@ std::string kernelTable(const BoundsResult& result, Claim claim) {
 
 std::string boundsTable(const BoundsResult& result) {
     std::string text = fmt::format(
-        "seed {}, at least {} edges that meet the support in each category, of radial kernels, of separable ones "
+        "seed {}, at least {} edges that meet the support in each category, of radial kernels, of separable "
+        "ones "
         "and of triangles; kernels take turns. Errors in u = 2^-53.\n\n"
-        "| claim | category | cases | hard | worst, 50 digits | worst, screen | bound | judged | disagreement | "
+        "| claim | category | cases | hard | worst, 50 digits | worst, screen | bound | judged | "
+        "disagreement | "
         "judge's own | kernel |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         result.options.seed, result.options.edges);
     for (int c = 0; c < kClaims; ++c) text += claimTable(result, static_cast<Claim>(c));
-    text += "\nBy kernel, over all categories, by the screen:\n\n| claim | kernel | worst |\n| --- | --- | --- |\n";
+    text +=
+        "\nBy kernel, over all categories, by the screen:\n\n| claim | kernel | worst |\n| --- | --- | --- "
+        "|\n";
     for (int c = 0; c < kClaims; ++c) text += kernelTable(result, static_cast<Claim>(c));
-    return text + fmt::format("\nterms in fixed point that are not the term seen, rounded: {}\n", result.unequal_bits);
+    return text + fmt::format("\nterms in fixed point that are not the term seen, rounded: {}\n",
+                              result.unequal_bits);
 }
 
 std::string boundsCsv(const BoundsResult& result) {
     std::string text =
-        "claim,category,seed,cases,hard,worst_u,screened_u,bound_u,judged,disagreement_u,judge_error_u,kernel,"
+        "claim,category,seed,cases,hard,worst_u,screened_u,bound_u,judged,disagreement_u,judge_error_u,"
+        "kernel,"
         "a_x,a_y,b_x,b_y\n";
     for (const BoundsRow& r : result.rows)
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},\"{}\",{},{},{},{}\n", nameOf(r.claim),

@@ -38,7 +38,8 @@ class ClaimTally {
             ++row_.judged_cases;
             row_.reported = std::max(row_.reported, verdict.reported);
             row_.disagreement = std::max(row_.disagreement, std::abs(verdict.error - kept.error));
-            if (verdict.error < row_.judged || (row_.judged_cases > 1 && verdict.error == row_.judged)) continue;
+            if (verdict.error < row_.judged || (row_.judged_cases > 1 && verdict.error == row_.judged))
+                continue;
             row_.judged = verdict.error;
             row_.worst_kernel = kernelOf(kept.found);
             row_.worst_edge = kept.found.edge;

@@ -19,7 +19,8 @@ bool insideFlags(Claim claim, double coordinate, double radius, bool crossed) {
 }
 
 template <class Number>
-double errorOf(Claim claim, const Truth<Number>& truth, double radius, const Edge& e, const ObservedTerm& seen) {
+double errorOf(Claim claim, const Truth<Number>& truth, double radius, const Edge& e,
+               const ObservedTerm& seen) {
     if (claim == Claim::kFanInside) return insideError(truth, e, seen);
     if (claim == Claim::kFanPiece) return pieceError(truth, e, seen);
     // an untouched edge counts as one whose ends are both outside
@@ -30,8 +31,9 @@ double errorOf(Claim claim, const Truth<Number>& truth, double radius, const Edg
 
 /// The product's fixed-point term is the one seen, rounded to the nearest 2^-60.
 bool sameBits(const ObservedTerm& seen, const EdgeTerms& product) {
-    const bool equal = seen.fixed.value[0] == product.value[0] && seen.touched == bool(product.touched & 1u) &&
-                       seen.entered == bool(product.crossed[0] & 1u) && seen.left == bool(product.crossed[1] & 1u);
+    const bool equal =
+        seen.fixed.value[0] == product.value[0] && seen.touched == bool(product.touched & 1u) &&
+        seen.entered == bool(product.crossed[0] & 1u) && seen.left == bool(product.crossed[1] & 1u);
     const Wide rounding = fromFixed<Wide>(product.value[0]) - Wide(seen.term);
     return equal && !(abs(rounding) > Wide(0x1p-61));
 }

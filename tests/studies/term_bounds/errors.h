@@ -1,4 +1,5 @@
-// The error of a product's number against the truth, in u = 2^-53: one text for the screen's and the judge's numbers.
+// The error of a product's number against the truth, in u = 2^-53: one text for the screen's and the judge's
+// numbers.
 #pragma once
 
 #include <cmath>
@@ -48,10 +49,12 @@ double pieceError(const Truth<Number>& truth, const Edge& edge, const ObservedTe
     return relativeError<Number>(Number(seen.term), truth.piece(edge, seen.t1, seen.t2));
 }
 
-/// All that the edge gives to its left owner, crossings included, in fixed point. The ends that count as outside
-/// stand on the border themselves: F_in + entry - exit = F(a, b) + [a outside] position(a) - [b outside] position(b).
+/// All that the edge gives to its left owner, crossings included, in fixed point. The ends that count as
+/// outside stand on the border themselves: F_in + entry - exit = F(a, b) + [a outside] position(a) - [b
+/// outside] position(b).
 template <class Number>
-double settledError(const Truth<Number>& truth, const Edge& edge, const ObservedTerm& seen, bool a_out, bool b_out) {
+double settledError(const Truth<Number>& truth, const Edge& edge, const ObservedTerm& seen, bool a_out,
+                    bool b_out) {
     Number found = fromFixed<Number>(seen.fixed.value[0]), exact = truth.total(edge);
     if (seen.entered) found = found + fromFixed<Number>(seen.fixed.position[0][0]);
     if (seen.left) found = found - fromFixed<Number>(seen.fixed.position[1][0]);

@@ -117,8 +117,8 @@ class ConeScreen : public FanScreen {
     Wide scale_;
 };
 
-/// g = phi(v)/(4 pi sigma^2 N), v = r^2/(2 sigma^2), over stretches of at most 1.5 sigma; where v > 75, e^-v is
-/// below 2^-108 and the term is an angle.
+/// g = phi(v)/(4 pi sigma^2 N), v = r^2/(2 sigma^2), over stretches of at most 1.5 sigma; where v > 75, e^-v
+/// is below 2^-108 and the term is an angle.
 class GaussianScreen : public FanScreen {
   public:
     GaussianScreen(const Prefilter& filter, double sigma)
@@ -171,8 +171,8 @@ class GaussianScreen : public FanScreen {
 std::unique_ptr<Truth<Wide>> makeFanScreen(const Prefilter& filter) {
     if (filter.kind == KernelKind::kCone) return std::make_unique<ConeScreen>(filter);
     if (filter.kind == KernelKind::kGaussian) return std::make_unique<GaussianScreen>(filter, *filter.sigma);
-    return std::make_unique<PolyScreen>(filter,
-                                        filter.kind == KernelKind::kDisk ? std::vector<double>{1.0} : filter.poly);
+    return std::make_unique<PolyScreen>(
+        filter, filter.kind == KernelKind::kDisk ? std::vector<double>{1.0} : filter.poly);
 }
 
 std::unique_ptr<Truth<Wide>> makeScreen(const Prefilter& filter) {

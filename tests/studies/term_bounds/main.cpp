@@ -24,6 +24,8 @@ void addOptions(CLI::App& program, Arguments& arguments) {
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     program.add_option("--seed", arguments.bounds.seed, "of all edges")->capture_default_str();
+    program.add_option("--category", arguments.bounds.categories, "by number, repeatable [every one]")
+        ->check(CLI::Range(0, kCategories - 1));
     program.add_option("-o,--output", arguments.output, "a file for the table beside standard output");
     program.add_option("--csv", arguments.csv, "a file for every row");
 }

@@ -27,11 +27,27 @@ Edge canonical(const Edge& e) {
 EdgeInput inputOf(const Edge& e) {
     const glm::dvec2 a = e.a + kSample, b = e.b + kSample;  // exact: on the grid
     const CarrierLine l = carrierLine({LineRef::edge(0, 0), a, b});
-    return {kSample.x,   kSample.y,  a.x,     a.y,     0.0,
-            0.0,         b.x,        b.y,     0.0,     0.0,
+    return {kSample.x,
+            kSample.y,
+            a.x,
+            a.y,
+            0.0,
+            0.0,
+            b.x,
+            b.y,
+            0.0,
+            0.0,
             distance(gridPoint(a), gridPoint(b)),
-            l.origin.x,  l.origin.y, l.nx_hi, l.nx_lo, l.ny_hi,
-            l.ny_lo,     l.c_hi,     l.c_lo,  l.length, l.direction.x,
+            l.origin.x,
+            l.origin.y,
+            l.nx_hi,
+            l.nx_lo,
+            l.ny_hi,
+            l.ny_lo,
+            l.c_hi,
+            l.c_lo,
+            l.length,
+            l.direction.x,
             l.direction.y};
 }
 

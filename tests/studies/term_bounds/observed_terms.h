@@ -9,9 +9,9 @@ namespace edgewise::study {
 Edge canonical(const Edge& edge);
 
 struct ObservedTerm {
-    double term = 0.0;        ///< the part inside the support
+    double term = 0.0;          ///< the part inside the support
     double t1 = 0.0, t2 = 0.0;  ///< radial: where the code cut the line, px from the foot point
-    EdgeTerms fixed;          ///< lane 0: what the product goes on with
+    EdgeTerms fixed;            ///< lane 0: what the product goes on with
     bool touched = false, entered = false, left = false;
     bool clipped() const { return entered || left; }
 };

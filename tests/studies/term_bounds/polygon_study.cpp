@@ -81,7 +81,8 @@ class MapWeights {
     bool measure(const std::vector<Corners>& triangles, std::vector<FixedWeight>& out) {
         std::vector<MapTriangle> map;
         for (const Corners& t : triangles)
-            map.push_back({{t[0] + kSample, t[1] + kSample, t[2] + kSample}, static_cast<Owner>(map.size() + 1)});
+            map.push_back(
+                {{t[0] + kSample, t[1] + kSample, t[2] + kSample}, static_cast<Owner>(map.size() + 1)});
         for (const MapTriangle& t : map)
             for (int i = 0; i < 3; ++i)
                 if (test::cross(t.p[(i + 1) % 3] - t.p[i], t.p[(i + 2) % 3] - t.p[i]) <= 0) return false;
@@ -171,7 +172,8 @@ class PolygonStudy {
             const std::size_t k = static_cast<std::size_t>(i) % kernels_.size();
             consider(k, makeEdge(category_, kernels_[k]->spots, dice), dice);
         }
-        for (const Claim claim : {Claim::kPolygonInside, Claim::kPolygonAcross, Claim::kPolygonLiteral}) keep(claim);
+        for (const Claim claim : {Claim::kPolygonInside, Claim::kPolygonAcross, Claim::kPolygonLiteral})
+            keep(claim);
     }
 
   private:
@@ -203,7 +205,8 @@ class PolygonStudy {
     void screen(Claim claim, const PolygonCase& c) {
         double unused = 0;
         const StudyKernel& kernel = *kernels_[c.kernel];
-        tally_[static_cast<std::size_t>(claim)].offer(errorOf(claim, *kernel.screen, kernel, c, unused), c.kernel, c);
+        const double error = errorOf(claim, *kernel.screen, kernel, c, unused);
+        tally_[static_cast<std::size_t>(claim)].offer(error, c.kernel, c);
     }
 
     void keep(Claim claim) {

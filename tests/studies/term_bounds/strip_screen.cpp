@@ -12,8 +12,8 @@ namespace {
 using boost::math::constants::pi;
 using exact::Real;
 
-/// Through the oracle's factor at this many points an interval: of a Gaussian over 2 sigma it is off by less than
-/// 2^-85 of its peak, of a Lanczos over 1 px by less.
+/// Through the oracle's factor at this many points an interval: of a Gaussian over 2 sigma it is off by less
+/// than 2^-85 of its peak, of a Lanczos over 1 px by less.
 constexpr int kPoints = 32;
 /// Coefficients this far below the largest are left out.
 const Real kNegligible("1e-26");
@@ -26,7 +26,8 @@ std::vector<Wide> interpolated(const std::function<Real(const Real&)>& f) {
         newton[i] = f(u[i]);
     }
     for (int order = 1; order < kPoints; ++order)
-        for (int i = kPoints - 1; i >= order; --i) newton[i] = (newton[i] - newton[i - 1]) / (u[i] - u[i - order]);
+        for (int i = kPoints - 1; i >= order; --i)
+            newton[i] = (newton[i] - newton[i - 1]) / (u[i] - u[i - order]);
     for (int i = kPoints - 1; i >= 0; --i) {
         for (int k = kPoints - 1; k > 0; --k) c[k] = c[k - 1] - u[i] * c[k];
         c[0] = newton[i] - u[i] * c[0];
@@ -60,12 +61,11 @@ std::vector<Interval> intervalsOf(const exact::SeparableFactor& factor) {
 
 class StripScreen : public Truth<Wide> {
   public:
-    explicit StripScreen(const Prefilter& filter)
-        : intervals_(intervalsOf(exact::SeparableFactor(filter))) {
+    explicit StripScreen(const Prefilter& filter) : intervals_(intervalsOf(exact::SeparableFactor(filter))) {
         std::size_t degree = 0;
-        for (const Interval& i : intervals_)
-            degree = std::max(degree, i.density.size() + i.mass.size() - 2);
-        // exact for polynomials; over a cell of entire kernels 20 nodes leave less than 14 do in GaussianScreen
+        for (const Interval& i : intervals_) degree = std::max(degree, i.density.size() + i.mass.size() - 2);
+        // exact for polynomials; over a cell of entire kernels 20 nodes leave less than 14 do in
+        // GaussianScreen
         const exact::GaussRule& rule = exact::gaussRule(std::min(20, static_cast<int>(degree / 2 + 1)));
         for (std::size_t q = 0; q < rule.node.size(); ++q) {
             node_.push_back(wideFrom(Real((1 + rule.node[q]) / 2)));

@@ -10,14 +10,19 @@ struct Choice {
     double radius, sigma;  // sigma 0: the kernel's own, or none
 };
 
-constexpr Choice kRadial[] = {{"disk", 0.5, 0},      {"disk", 1000, 0},        {"cone", 1, 0},
-                              {"cone", 0x1p-10, 0},  {"gaussian", 2, 0},       {"gaussian", 2, 0.05},
-                              {"gaussian", 2, 20},   {"poly:1,2,3", 2, 0},     {"poly:1,-2,1", 1.3, 0}};
-constexpr Choice kSeparable[] = {{"box", 0.5, 0},       {"tent", 1, 0},
-                                 {"tent", 0x1p-10, 0},  {"gaussian-separable", 2, 0},
-                                 {"gaussian-separable", 4, 0.25}, {"bspline", 2, 0},
-                                 {"mitchell", 2, 0},    {"catmull-rom", 2, 0},
-                                 {"lanczos", 3, 0},     {"lanczos", 1.37, 0}};
+constexpr Choice kRadial[] = {{"disk", 0.5, 0},     {"disk", 1000, 0},    {"cone", 1, 0},
+                              {"cone", 0x1p-10, 0}, {"gaussian", 2, 0},   {"gaussian", 2, 0.05},
+                              {"gaussian", 2, 20},  {"poly:1,2,3", 2, 0}, {"poly:1,-2,1", 1.3, 0}};
+constexpr Choice kSeparable[] = {{"box", 0.5, 0},
+                                 {"tent", 1, 0},
+                                 {"tent", 0x1p-10, 0},
+                                 {"gaussian-separable", 2, 0},
+                                 {"gaussian-separable", 4, 0.25},
+                                 {"bspline", 2, 0},
+                                 {"mitchell", 2, 0},
+                                 {"catmull-rom", 2, 0},
+                                 {"lanczos", 3, 0},
+                                 {"lanczos", 1.37, 0}};
 
 std::string describe(const Choice& c) {
     char text[80];

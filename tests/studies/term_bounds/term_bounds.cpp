@@ -1,5 +1,6 @@
 #include "tests/studies/term_bounds/term_bounds.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/studies/term_bounds/edge_study.h"
@@ -7,8 +8,9 @@
 namespace edgewise::study {
 
 const char* nameOf(Claim claim) {
-    constexpr std::array<const char*, kClaims> kNames = {
-        "fan inside", "fan piece", "fan settled", "strip", "polygon inside", "polygon across", "polygon literal"};
+    constexpr std::array<const char*, kClaims> kNames = {"fan inside",     "fan piece",      "fan settled",
+                                                         "strip",          "polygon inside", "polygon across",
+                                                         "polygon literal"};
     return kNames[static_cast<std::size_t>(claim)];
 }
 
@@ -30,6 +32,8 @@ BoundsResult measureBounds(const BoundsOptions& options) {
     result.options = options;
     const StudyKernels radial = makeStudyKernels(true), separable = makeStudyKernels(false);
     for (int c = 0; c < kCategories; ++c) {
+        const std::vector<int>& wanted = options.categories;
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), c) == wanted.end()) continue;
         const Category category = static_cast<Category>(c);
         studyEdges(radial, category, result);
         studyEdges(separable, category, result);

@@ -14,8 +14,8 @@ template <class Number>
 class Truth {
   public:
     virtual ~Truth() = default;
-    /// The whole fan of a -> b, angles of what lies outside the disk included; the whole strip, with what lies
-    /// right of the square.
+    /// The whole fan of a -> b, angles of what lies outside the disk included; the whole strip, with what
+    /// lies right of the square.
     virtual Number total(const Edge& edge) const = 0;
     /// Radial: h int g dt over [t1, t2] px of the line, g as inside the disk.
     virtual Number piece(const Edge& edge, double t1, double t2) const = 0;
@@ -23,8 +23,8 @@ class Truth {
     virtual Number position(glm::dvec2 p) const = 0;
 };
 
-/// By formulas of its own: radial kernels by antiderivatives along the line, the Gaussian by short Gauss rules over
-/// (1 - e^-v)/v; separable ones integrated by parts,
+/// By formulas of its own: radial kernels by antiderivatives along the line, the Gaussian by short Gauss
+/// rules over (1 - e^-v)/v; separable ones integrated by parts,
 ///     int K(x) k(y) dy = [K(x) K(y)] - int k(x) K(y) dx,
 /// with the factors that the oracle holds.
 std::unique_ptr<Truth<Wide>> makeScreen(const Prefilter& filter);

@@ -10,9 +10,9 @@ using exact::Real;
 
 constexpr int kStepsPerUnit = 16;  // of the table of exponentials: remainders of 1/32
 constexpr int kLowest = -100 * kStepsPerUnit, kHighest = 2 * kStepsPerUnit;
-constexpr int kExpTerms = 14;      // (1/32)^14/14! < 2^-106
-constexpr int kAngleSteps = 64;    // a radian: remainders of 1/128
-constexpr int kAtanTerms = 8;      // (1/127)^17/17 < 2^-122
+constexpr int kExpTerms = 14;    // (1/32)^14/14! < 2^-106
+constexpr int kAngleSteps = 64;  // a radian: remainders of 1/128
+constexpr int kAtanTerms = 8;    // (1/127)^17/17 < 2^-122
 
 /// sum of r^k / k! over k >= 0, or of (-r)^k/(k + 1)!.
 std::vector<Wide> factorialSeries(int shift, int sign) {
@@ -20,7 +20,8 @@ std::vector<Wide> factorialSeries(int shift, int sign) {
     Real factorial = 1;
     for (int k = 0; k <= kExpTerms + shift; ++k) {
         if (k > 0) factorial *= k;
-        if (k >= shift) c.push_back(wideFrom(Real((k - shift) % 2 == 0 || sign > 0 ? 1 / factorial : -1 / factorial)));
+        if (k >= shift)
+            c.push_back(wideFrom(Real((k - shift) % 2 == 0 || sign > 0 ? 1 / factorial : -1 / factorial)));
     }
     return c;
 }
@@ -60,7 +61,8 @@ const std::vector<Wide>& atanSeries() {
     static const std::vector<Wide> c = [] {
         std::vector<Wide> out;
         for (int k = 0; k <= kAtanTerms; ++k)
-            out.push_back(wideFrom(Real((k % 2 ? -1 : 1) / (2 * boost::math::constants::pi<Real>() * (2 * k + 1)))));
+            out.push_back(
+                wideFrom(Real((k % 2 ? -1 : 1) / (2 * boost::math::constants::pi<Real>() * (2 * k + 1)))));
         return out;
     }();
     return c;
@@ -117,7 +119,8 @@ Wide log(Wide x) {
 // Turned back by a multiple of 1/64 rad, what is left is small.
 Wide turnsOf(Wide y, Wide x) {
     if (x.v.hi == 0 && y.v.hi == 0) return 0.0;
-    const Direction& d = direction(static_cast<int>(std::nearbyint(std::atan2(y.v.hi, x.v.hi) * kAngleSteps)));
+    const Direction& d =
+        direction(static_cast<int>(std::nearbyint(std::atan2(y.v.hi, x.v.hi) * kAngleSteps)));
     const Wide q = (y * d.cosine - x * d.sine) / (x * d.cosine + y * d.sine);
     return d.turns + q * polynomial(atanSeries(), q * q);
 }

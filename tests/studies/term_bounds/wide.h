@@ -58,11 +58,11 @@ Wide wideFrom(const exact::Real& x);
 Wide wideFrom(std::int64_t n);
 
 /// Relative errors below 2^-90, or absolute ones below 2^-95 where the result passes through 0.
-Wide sqrt(Wide x);              ///< 0 for x <= 0
-Wide exp(Wide x);               ///< -100 <= x <= 1
-Wide onePhi(Wide v);            ///< (1 - e^-v)/v, 0 <= v <= 100
-Wide log(Wide x);               ///< x > 0
-Wide turnsOf(Wide y, Wide x);   ///< the angle of (x, y) over 2 pi, [-1/2, 1/2]; 0 at (0, 0)
+Wide sqrt(Wide x);             ///< 0 for x <= 0
+Wide exp(Wide x);              ///< -100 <= x <= 1
+Wide onePhi(Wide v);           ///< (1 - e^-v)/v, 0 <= v <= 100
+Wide log(Wide x);              ///< x > 0
+Wide turnsOf(Wide y, Wide x);  ///< the angle of (x, y) over 2 pi, [-1/2, 1/2]; 0 at (0, 0)
 Wide polynomial(const std::vector<Wide>& c, Wide x);
 
 }  // namespace edgewise::study
