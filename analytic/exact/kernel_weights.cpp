@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <functional>
+#include <stdexcept>
 
 #include "analytic/exact/gauss_legendre.h"
 #include "analytic/exact/separable_factor.h"
@@ -42,6 +43,8 @@ void add(Weight& sum, const Weight& part) {
 struct KernelWeights::Form {
     virtual ~Form() = default;
     virtual Weight of(const Edge& edge) const = 0;
+    virtual Weight piece(const Edge& edge, const Real& t1, const Real& t2) const = 0;
+    virtual Weight position(const Real& x, const Real& y) const = 0;
 };
 
 namespace {
@@ -69,6 +72,15 @@ class Fan : public KernelWeights::Form {
         if (ta < from) sum.value += angle(h, ta, from);
         if (to < tb) sum.value += angle(h, to, tb);
         return sum;
+    }
+
+    Weight piece(const Edge& e, const Real& t1, const Real& t2) const override {
+        const Real ex = e.bx - e.ax, ey = e.by - e.ay;
+        return e.cross == 0 ? Weight{} : inside(e.cross / sqrt(ex * ex + ey * ey), t1, t2);
+    }
+
+    Weight position(const Real& x, const Real& y) const override {
+        return {atan2(y, x) / (2 * pi<Real>()), kRounding};
     }
 
   private:
@@ -155,22 +167,31 @@ class Strip : public KernelWeights::Form {
         std::sort(cuts.begin(), cuts.end());
         Weight sum{0, factor_.error()};
         for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-            if (cuts[i] < cuts[i + 1]) add(sum, piece(e, cuts[i], cuts[i + 1]));
+            if (cuts[i] < cuts[i + 1]) add(sum, row(e, cuts[i], cuts[i + 1]));
         if (e.by < e.ay) sum.value = -sum.value;
         return sum;
     }
 
+    Weight piece(const Edge&, const Real&, const Real&) const override {
+        throw std::logic_error("KernelWeights::ofPiece: pieces are of radial kernels");
+    }
+
+    Weight position(const Real&, const Real& y) const override {
+        const Real at = std::clamp(y, Real(-factor_.radius()), factor_.radius());
+        return {factor_.mass(factor_.intervalOf(at), at), factor_.error()};
+    }
+
   private:
-    Weight piece(const Edge& e, const Real& y0, const Real& y1) const {
+    Weight row(const Edge& e, const Real& y0, const Real& y1) const {
         const Real R = factor_.radius(), middle = (y0 + y1) / 2, slope = (e.bx - e.ax) / (e.by - e.ay);
         const auto abscissa = [&](const Real& y) { return e.ax + slope * (y - e.ay); };
         const Real at = abscissa(middle);
-        const std::size_t row = factor_.intervalOf(middle);
+        const std::size_t band = factor_.intervalOf(middle);
         if (at <= -R) return {};
-        if (at >= R) return {factor_.mass(row, y1) - factor_.mass(row, y0), 10 * kRounding};
+        if (at >= R) return {factor_.mass(band, y1) - factor_.mass(band, y0), 10 * kRounding};
         const std::size_t column = factor_.intervalOf(at);
         return judgedIntegral(y0, y1, [&](const Real& y) {
-            return factor_.mass(column, abscissa(y)) * factor_.density(row, y);
+            return factor_.mass(column, abscissa(y)) * factor_.density(band, y);
         });
     }
 
@@ -236,6 +257,19 @@ Weight KernelWeights::of(const Face& face, const Point& sample) const {
     if (beyond(face, sample, radius_)) return sum;
     forEdges(face, [&](const Point& a, const Point& b) { add(sum, form_->of(edgeOf(a, b, sample))); });
     return sum;
+}
+
+Weight KernelWeights::ofEdge(const Point& a, const Point& b, const Point& sample) const {
+    return form_->of(edgeOf(a, b, sample));
+}
+
+Weight KernelWeights::ofPiece(const Point& a, const Point& b, const Point& sample, const Real& t1,
+                              const Real& t2) const {
+    return form_->piece(edgeOf(a, b, sample), t1, t2);
+}
+
+Weight KernelWeights::position(const Point& p, const Point& sample) const {
+    return form_->position(Real(Rational(p.x - sample.x)), Real(Rational(p.y - sample.y)));
 }
 
 }  // namespace edgewise::exact
