@@ -100,6 +100,7 @@ void judge(const Product& product, const Truth& truth, StabilityRow& row) {
                  std::abs(std::ldexp(double(product.sum - (FixedWeight{1} << kWeightBits)), -60)));
     row.label_conflicts += product.conflicts;
     row.exact_depths += product.counts.exact_depth;
+    row.fine_orders += product.counts.fine_orders;
     row.closings += product.counts.closings;
     row.seconds += product.seconds;
     row.oracle_error = std::max(row.oracle_error, static_cast<double>(truth.error));
@@ -115,6 +116,9 @@ StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double di
         if (progress.cancelled()) throw Interrupted();
         const StiffScene stiff = one.make(difficulty, used, static_cast<std::uint64_t>(seed));
         judge(runProduct(stiff, used), runOracle(stiff, used), row);
+        if (!stiff.projection) continue;
+        if (!row.projection) row.projection.emplace();
+        row.projection->add(*stiff.projection);
     }
     row.seconds /= scenes;
     return row;

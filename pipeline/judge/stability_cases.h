@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analytic/prefilter.h"
 #include "analytic/screen_triangle.h"
+#include "pipeline/judge/projection_witness.h"
 
 namespace edgewise::judge {
 
@@ -16,6 +18,7 @@ namespace edgewise::judge {
 struct StiffScene {
     ScreenScene scene;
     glm::ivec2 pixel{0};
+    std::optional<ProjectionErrors> projection;  ///< of scenes that a camera made
 };
 
 /// A family of scenes over one number. `make` is the same for the same difficulty, filter and seed on every

@@ -16,6 +16,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<StabilityRow>;
 
+/// Null for rows whose scenes no camera made.
+Json projectionJson(const std::optional<ProjectionErrors>& p) {
+    if (!p) return nullptr;
+    return {{"max_px", p->max_px},
+            {"bound_px", p->bound_px},
+            {"worst_of_bound", p->worst_of_bound},
+            {"vertices", p->vertices},
+            {"made", p->made},
+            {"undecided", p->undecided},
+            {"shared_edges", p->shared_edges},
+            {"cracks", p->cracks},
+            {"lost_areas", p->lost_areas}};
+}
+
 Json rowJson(const StabilityRow& r) {
     return {{"case", r.case_name},
             {"filter", r.filter},
@@ -31,9 +45,11 @@ Json rowJson(const StabilityRow& r) {
             {"partition_defect", r.partition_defect},
             {"label_conflicts", r.label_conflicts},
             {"exact_depths", r.exact_depths},
+            {"fine_orders", r.fine_orders},
             {"closings", r.closings},
             {"seconds", r.seconds},
-            {"oracle_error", r.oracle_error}};
+            {"oracle_error", r.oracle_error},
+            {"projection", projectionJson(r.projection)}};
 }
 
 /// What a plot's axis spans, in decades.
