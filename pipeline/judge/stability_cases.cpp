@@ -334,7 +334,7 @@ std::vector<StabilityCase> screenCases() {
          nearParallel},
         {"near-coincident", "planes that hardly differ", "difference of depth and tilt", decades(-1, -16),
          nearCoincident},
-        {"coincident", "layers in one plane, every depth tied", "layers", {2, 5, 10, 30, 100}, coincident},
+        {"coincident", "layers in one plane, every depth tied", "layers", {2, 4, 8, 16, 32}, coincident},
         {"depth-ratio", "depths of many orders of magnitude", "ratio", upwards(decades(12, 1)), depthRatio},
         {"stack", "layers over each other, all piercing", "layers", {10, 30, 100, 300, 1000}, stack},
         {"star", "edges through one point", "edges", {10, 30, 100, 300, 1000}, star},
