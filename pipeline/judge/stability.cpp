@@ -143,6 +143,10 @@ double promisedBound(std::uint64_t terms) {
     return static_cast<double>(terms) * (10.0 * 0x1p-53 + 0x1p-61) + 0x1p-61;
 }
 
+void checkCases(const StabilityOptions& options) {
+    chosenCases(options.cases);
+}
+
 std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress) {
     struct Task {
         const StabilityCase* one;

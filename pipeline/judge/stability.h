@@ -45,6 +45,9 @@ struct StabilityOptions {
     std::vector<std::string> cases;  ///< names; empty: all
 };
 
+/// Throws InputError for an unknown case.
+void checkCases(const StabilityOptions& options);
+
 /// Rows by case, filter, difficulty. Throws InputError for an unknown case, Interrupted when cancelled.
 std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress);
 

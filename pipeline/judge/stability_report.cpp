@@ -135,7 +135,8 @@ const char* const kStyle =
     ".scroll{overflow-x:auto;background:#fff;border:1px solid #ddd;border-radius:6px;padding:6px}"
     "table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}"
     "td,th{padding:3px 9px;border-bottom:1px solid #e5e5e5;text-align:right;white-space:nowrap}"
-    "td:first-child,th:first-child,td:nth-child(2),th:nth-child(2){text-align:left}"
+    "th{white-space:normal;vertical-align:bottom;line-height:1.2}td:first-child,th:first-child,td:nth-child("
+    "2),th:nth-child(2){text-align:left}"
     "summary{cursor:pointer;margin:14px 0 8px}";
 
 bool keepsPromises(const StabilityRow& r) {
