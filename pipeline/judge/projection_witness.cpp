@@ -19,7 +19,7 @@ constexpr double kU = 0x1p-53;
 constexpr double kClipBandPx = kGuardBandPx - 4096.0;
 
 /// A point of eye space, how far doubles may have moved it an axis, and whether a plane made it.
-struct EyePoint {
+struct SolidPoint {
     std::array<Real, 3> p;
     std::array<double, 3> error{};
     bool made = false;
@@ -38,12 +38,13 @@ double size(const Real& x) {
 struct Plane {
     std::array<Real, 3> a;
     Real b;
-    Real at(const EyePoint& q) const { return a[0] * q.p[0] + a[1] * q.p[1] + a[2] * q.p[2] + b; }
-    /// How far off the product may see a point from the plane: the point's errors, three roundings.
-    double doubt(const EyePoint& q) const {
+    int roundings;  ///< of the coefficients, in double
+    Real at(const SolidPoint& q) const { return a[0] * q.p[0] + a[1] * q.p[1] + a[2] * q.p[2] + b; }
+    /// How far off the product may see a point from the plane.
+    double doubt(const SolidPoint& q) const {
         double sum = 0.0;
-        for (std::size_t k = 0; k < 3; ++k) sum += size(a[k]) * (q.error[k] + 4 * kU * size(q.p[k]));
-        return sum;
+        for (std::size_t k = 0; k < 3; ++k) sum += size(a[k]) * size(q.p[k]);
+        return roundings * kU * sum;
     }
 };
 
@@ -53,16 +54,16 @@ class Lens {
         : matrix_(camera.camera_from_world),
           scale_(Real(0.5) * film.height / tan(Real(camera.camera.yfov) / 2)),
           middle_(glm::dvec2(film.width, film.height) * 0.5 - film.shift_px) {
-        planes_.push_back({{0, 0, -1}, -Real(camera.camera.znear)});
+        planes_.push_back({{0, 0, -1}, -Real(camera.camera.znear), 0});
         for (const int sign : {1, -1}) {
-            planes_.push_back({{sign * scale_, 0, -(kClipBandPx + Real(sign * middle_.x))}, 0});
-            planes_.push_back({{0, -sign * scale_, -(kClipBandPx + Real(sign * middle_.y))}, 0});
+            planes_.push_back({{sign * scale_, 0, -(kClipBandPx + Real(sign * middle_.x))}, 0, 3});
+            planes_.push_back({{0, -sign * scale_, -(kClipBandPx + Real(sign * middle_.y))}, 0, 3});
         }
     }
 
     /// In double: ((m x + m y) + (m z + m)), three roundings of each product at most.
-    EyePoint toEye(const glm::vec3& p) const {
-        EyePoint out;
+    SolidPoint toEye(const glm::vec3& p) const {
+        SolidPoint out;
         for (int row = 0; row < 3; ++row) {
             out.p[row] = matrix_[3][row];
             double sizes = std::abs(matrix_[3][row]);
@@ -76,7 +77,7 @@ class Lens {
     }
 
     /// x = middle + scale x / w, w = -z.
-    ScreenPoint toScreen(const EyePoint& q) const {
+    ScreenPoint toScreen(const SolidPoint& q) const {
         const Real w = -q.p[2], x = scale_ * q.p[0] / w, y = -scale_ * q.p[1] / w;
         const double nearest_w = static_cast<double>(w) - q.error[2];
         const double per_w = static_cast<double>(scale_) / nearest_w, s = static_cast<double>(scale_);
@@ -96,36 +97,31 @@ class Lens {
     std::vector<Plane> planes_;
 };
 
-/// Where the plane cuts a -> b: the ends' errors along the edge and across it, first order; twice as much
-/// where rounding may have put an end on the other side.
-EyePoint cut(const Plane& plane, const EyePoint& a, const EyePoint& b) {
-    const Real h_a = plane.at(a), h_b = plane.at(b), t = h_a / (h_a - h_b);
-    const double s = static_cast<double>(t), fall = size(h_a - h_b);
-    const bool doubtful = size(h_a) <= plane.doubt(a) || size(h_b) <= plane.doubt(b);
-    const double moved = ((1 - s) * plane.doubt(a) + s * plane.doubt(b)) / fall * (doubtful ? 2 : 1);
-    EyePoint out;
+/// Where the plane cuts a -> b. The product knows the ends to twice double's digits, whatever it does with
+/// them elsewhere: only the plane's coefficients move the cut along the edge, and it is rounded.
+SolidPoint cut(const Plane& plane, const SolidPoint& a, const SolidPoint& b) {
+    const Real h_a = plane.at(a), fall = h_a - plane.at(b), t = h_a / fall;
+    SolidPoint out;
     out.made = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        out.p[k] = a.p[k] + t * (b.p[k] - a.p[k]);
-        out.error[k] =
-            (1 - s) * a.error[k] + s * b.error[k] + size(b.p[k] - a.p[k]) * moved + kU * size(out.p[k]);
-    }
+    for (std::size_t k = 0; k < 3; ++k) out.p[k] = a.p[k] + t * (b.p[k] - a.p[k]);
+    const double moved = plane.doubt(out) / size(fall);
+    for (std::size_t k = 0; k < 3; ++k) out.error[k] = size(b.p[k] - a.p[k]) * moved + kU * size(out.p[k]);
     return out;
 }
 
 /// What the camera sees of a polygon, or of a segment.
 struct Clipped {
-    std::vector<EyePoint> points;
+    std::vector<SolidPoint> points;
     bool doubtful = false;  ///< rounding may have seen a point on the other side of a plane
     bool cut = false;
 };
 
-Clipped clip(std::vector<EyePoint> points, const std::vector<Plane>& planes, bool closed) {
+Clipped clip(std::vector<SolidPoint> points, const std::vector<Plane>& planes, bool closed) {
     Clipped out{std::move(points)};
     for (const Plane& plane : planes) {
-        const std::vector<EyePoint> old = std::exchange(out.points, {});
+        const std::vector<SolidPoint> old = std::exchange(out.points, {});
         for (std::size_t i = 0; i < old.size(); ++i) {
-            const EyePoint &here = old[i], &next = old[(i + 1) % old.size()];
+            const SolidPoint &here = old[i], &next = old[(i + 1) % old.size()];
             const bool inside = plane.at(here) >= 0;
             out.doubtful |= !here.made && size(plane.at(here)) <= plane.doubt(here);
             if (inside) out.points.push_back(here);
@@ -193,11 +189,11 @@ class Judge {
   private:
     void judgeTriangle(Owner owner) {
         const auto pieces = pieces_.of(owner, screen_);
-        std::vector<EyePoint> eye;
+        std::vector<SolidPoint> eye;
         for (const glm::vec3& p : world_[owner]) eye.push_back(lens_.toEye(p));
         const Clipped polygon = clip(eye, lens_.planes(), true);
         std::vector<ScreenPoint> exact;
-        for (const EyePoint& p : polygon.points) exact.push_back(lens_.toScreen(p)), errors_.made += p.made;
+        for (const SolidPoint& p : polygon.points) exact.push_back(lens_.toScreen(p)), errors_.made += p.made;
         if (polygon.doubtful && (exact.size() < 3 || pieces.empty())) return void(++errors_.undecided);
         judgeArea(exact, pieces);
         if (exact.empty() || pieces.empty()) return;

@@ -107,11 +107,15 @@ void judge(const Product& product, const Truth& truth, StabilityRow& row) {
     ++row.scenes;
 }
 
+std::optional<Prefilter> filterOf(const StabilityCase& one, const Prefilter& filter, double difficulty) {
+    return one.filter ? one.filter(difficulty, filter) : filter;
+}
+
 StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double difficulty, int scenes,
                     Progress& progress) {
     StabilityRow row;
     row.case_name = one.name, row.filter = filter.name, row.condition = difficulty;
-    const Prefilter used = one.filter ? one.filter(difficulty, filter) : filter;
+    const Prefilter used = filterOf(one, filter, difficulty).value();
     for (int seed = 1; seed <= scenes; ++seed) {
         if (progress.cancelled()) throw Interrupted();
         const StiffScene stiff = one.make(difficulty, used, static_cast<std::uint64_t>(seed));
@@ -158,7 +162,8 @@ std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress
         for (const Prefilter& filter : options.filters)
             for (std::size_t i = 0; i < one->difficulties.size();
                  i += static_cast<std::size_t>(options.every))
-                tasks.push_back({one, &filter, one->difficulties[i]});
+                if (filterOf(*one, filter, one->difficulties[i]))
+                    tasks.push_back({one, &filter, one->difficulties[i]});
     std::vector<StabilityRow> rows(tasks.size());
     progress.stage("stability", tasks.size());
     // CGAL's lazy numbers share nodes between threads without a lock: one thread.

@@ -1,6 +1,7 @@
 #include "pipeline/judge/stability_cases.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "pipeline/judge/camera_cases.h"
 #include "pipeline/judge/case_tools.h"
@@ -299,14 +300,23 @@ StiffScene ordinary(double difficulty, const Prefilter& filter, std::uint64_t se
     return finish(builder);
 }
 
-Prefilter resized(double radius, const Prefilter& filter) {
-    return makePrefilter(filter.name, radius, filter.sigma ? std::optional(radius / 3.0) : std::nullopt);
+/// None where the family has no such filter: lanczos grows lobes with its radius, up to a limit.
+std::optional<Prefilter> made(const Prefilter& filter, double radius, std::optional<double> sigma) {
+    try {
+        return makePrefilter(filter.name, radius, sigma);
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
 }
 
-/// Gaussians alone have a sigma; other filters stay as they are.
-Prefilter sharpened(double ratio, const Prefilter& filter) {
-    if (!filter.sigma) return filter;
-    return makePrefilter(filter.name, filter.radius, filter.radius * ratio);
+std::optional<Prefilter> resized(double radius, const Prefilter& filter) {
+    return made(filter, radius, filter.sigma ? std::optional(radius / 3.0) : std::nullopt);
+}
+
+/// Gaussians alone have a sigma.
+std::optional<Prefilter> sharpened(double ratio, const Prefilter& filter) {
+    if (!filter.sigma) return std::nullopt;
+    return made(filter, filter.radius, filter.radius * ratio);
 }
 
 /// Small angles, then the whole turn in steps of 15 degrees and some that no degree names.

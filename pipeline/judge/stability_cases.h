@@ -29,8 +29,9 @@ struct StabilityCase {
     std::string condition;  ///< what the difficulty is, with its unit
     std::vector<double> difficulties;
     std::function<StiffScene(double difficulty, const Prefilter& filter, std::uint64_t seed)> make;
-    /// Cases that are about the filter itself sweep it; otherwise the study's filter is taken as it is.
-    std::function<Prefilter(double difficulty, const Prefilter& filter)> filter = {};
+    /// Cases that are about the filter itself sweep it, none where it cannot be so; otherwise the study's
+    /// filter is taken as it is.
+    std::function<std::optional<Prefilter>(double difficulty, const Prefilter& filter)> filter = {};
 };
 
 const std::vector<StabilityCase>& stabilityCases();
