@@ -24,6 +24,7 @@ struct Trial {
 struct Violation {
     std::string what;
     glm::ivec2 pixel;
+    std::string filter = {};  ///< empty: the trial's
 };
 
 /// Not asked: the scene gave no occasion, such as a split that float32 cannot hold.
@@ -58,6 +59,8 @@ Outcome orderDoesNotShow(const Trial& trial);
 Outcome windingDoesNotShow(const Trial& trial);
 /// Other threads and crops give the same bits.
 Outcome threadsAndCropsDoNotShow(const Trial& trial);
+/// Triangles of one node that are coplanar in the file, by rational arithmetic, share one depth plane.
+Outcome coplanarTrianglesShareAPlane(const Trial& trial);
 /// What the planner leaves out changes weights by roundings only.
 Outcome omissionsDoNotShow(const Trial& trial);
 

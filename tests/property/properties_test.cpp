@@ -2,10 +2,14 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "analytic/exact/visible_faces.h"
 #include "pipeline/project.h"
+#include "tests/pipeline/tiny_gltf_file.h"
 #include "tests/property/run_property.h"
 #include "tests/witness/hard_cases.h"
+#include "tests/witness/kernels.h"
 #include "tests/witness/product_weights.h"
 
 namespace edgewise::property {
@@ -26,6 +30,32 @@ TEST_P(EveryPicture, Holds) {
 
 INSTANTIATE_TEST_SUITE_P(Property, EveryPicture, testing::ValuesIn(allProperties()),
                          [](const auto& one) { return one.param.name; });
+
+/// Scenes that once failed, shrunk: each has taught us something.
+TEST(PropertyScenes, ThoseThatFailedHold) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_KEPT_SCENES)) {
+        const WorldScene scene = readWorld(entry.path());
+        for (const Prefilter& filter : witness::allPrefilters())
+            for (const Property& property : allProperties()) {
+                const Outcome outcome = property.check({scene, {13, 13, 18, 18}, filter, count});
+                EXPECT_FALSE(outcome.wrong) << entry.path().filename() << " " << filter.name << " "
+                                            << property.name << ": " << outcome.wrong->what;
+            }
+        ++count;
+    }
+    EXPECT_GT(count, 0u);
+}
+
+TEST(PropertyScenes, AreReadBackAsTheyWere) {
+    const test::TempFolder folder;
+    for (std::uint64_t seed = 1; seed < 20; ++seed) {
+        const std::string text = gltfOf(trialOf(seed).scene);
+        test::writeFile(folder / "a.gltf", text);
+        WorldScene again = readWorld(folder / "a.gltf");
+        EXPECT_EQ(gltfOf(again), text) << seed;
+    }
+}
 
 /// Of all scenes of a campaign.
 struct Met {

@@ -33,11 +33,14 @@ Trial trialOf(std::uint64_t seed) {
 
 std::string reportFailure(const Property& property, const Trial& trial) {
     Trial small = trial;
-    small.scene = shrink(trial.scene, [&](const WorldScene& scene) {
-        Trial t = trial;
-        t.scene = scene;
-        return property.check(t).wrong.has_value();
-    });
+    small.scene = shrink(
+        trial.scene,
+        [&](const WorldScene& scene) {
+            Trial t = trial;
+            t.scene = scene;
+            return property.check(t).wrong.has_value();
+        },
+        fromEnvironment("EDGEWISE_PROPERTY_BUDGET", 3000));
     const std::string file = fmt::format("failure-{}-{}.gltf", property.name, trial.seed);
     test::writeFile(file, gltfOf(small.scene));
     const Violation first = *property.check(trial).wrong, last = *property.check(small).wrong;
@@ -47,7 +50,7 @@ std::string reportFailure(const Property& property, const Trial& trial) {
         "  EDGEWISE_PROPERTY_SEED={} EDGEWISE_PROPERTY_SCENES=1 property_tests --gtest_filter='*{}*'",
         property.name, first.what, first.pixel.x, first.pixel.y, trial.scene.triangles.size(),
         small.scene.triangles.size(), last.what, file, kFilmPx, kFilmPx, last.pixel.x, last.pixel.y,
-        trial.filter.name, trial.seed, property.name);
+        last.filter.empty() ? trial.filter.name : last.filter, trial.seed, property.name);
 }
 
 int runProperty(const Property& property, const Campaign& campaign) {

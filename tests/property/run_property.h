@@ -19,7 +19,7 @@ Campaign campaignOf(int default_scenes);
 Trial trialOf(std::uint64_t seed);
 
 /// The smallest scene that still fails as a glTF file in the working directory, failure-NAME-SEED.gltf, and
-/// in words how to see it again.
+/// in words how to see it again. EDGEWISE_PROPERTY_BUDGET says how many smaller scenes are tried.
 std::string reportFailure(const Property& property, const Trial& trial);
 
 /// How many scenes were asked. The first failure is shrunk, saved and added to the test's.

@@ -68,6 +68,17 @@ std::string gltfOf(const WorldScene& scene) {
     return file.asGltf();
 }
 
+WorldScene readWorld(const std::filesystem::path& gltf) {
+    const Scene scene = loadGltf(gltf);
+    WorldScene world;
+    world.lens = scene.cameras.at(0).perspective ? Lens::kPerspective : Lens::kOrthographic;
+    for (const Geometry& g : scene.geometry)
+        for (const auto& [a, b, c] : g.triangles)
+            world.triangles.push_back(
+                {{g.position_file[a], g.position_file[b], g.position_file[c]}, static_cast<int>(g.node)});
+    return world;
+}
+
 View viewOf(const std::filesystem::path& gltf, const PixelBox& crop) {
     View view;
     view.scene = loadGltf(gltf);

@@ -34,6 +34,9 @@ struct WorldScene {
 /// A file of its own: data URI, camera, double-sided unlit materials, a colour a triangle.
 std::string gltfOf(const WorldScene& scene);
 
+/// What gltfOf() wrote, read back.
+WorldScene readWorld(const std::filesystem::path& gltf);
+
 /// The scene as load_gltf gives it, and its film.
 struct View {
     Scene scene;
