@@ -31,7 +31,7 @@ Trial trialOf(std::uint64_t seed) {
     return {std::move(world.scene), world.box, filters[seed % filters.size()], seed};
 }
 
-std::string reportFailure(const Property& property, const Trial& trial) {
+std::string reportFailure(const Property& property, const Trial& trial, int budget) {
     Trial small = trial;
     small.scene = shrink(
         trial.scene,
@@ -40,7 +40,7 @@ std::string reportFailure(const Property& property, const Trial& trial) {
             t.scene = scene;
             return property.check(t).wrong.has_value();
         },
-        fromEnvironment("EDGEWISE_PROPERTY_BUDGET", 3000));
+        budget);
     const std::string file = fmt::format("failure-{}-{}.gltf", property.name, trial.seed);
     test::writeFile(file, gltfOf(small.scene));
     const Violation first = *property.check(trial).wrong, last = *property.check(small).wrong;
@@ -60,7 +60,8 @@ int runProperty(const Property& property, const Campaign& campaign) {
         const Outcome outcome = property.check(trial);
         asked += outcome.asked;
         if (!outcome.wrong) continue;
-        ADD_FAILURE() << reportFailure(property, trial);
+        ADD_FAILURE() << reportFailure(property, trial,
+                                       fromEnvironment("EDGEWISE_PROPERTY_BUDGET", kShrinkBudget));
         break;
     }
     fmt::print("{}: seeds {} to {}, {} scenes asked\n", property.name, campaign.seed,

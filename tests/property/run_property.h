@@ -18,11 +18,14 @@ Campaign campaignOf(int default_scenes);
 /// Of scene `seed`, with a kernel that the seed chooses.
 Trial trialOf(std::uint64_t seed);
 
-/// The smallest scene that still fails as a glTF file in the working directory, failure-NAME-SEED.gltf, and
-/// in words how to see it again. EDGEWISE_PROPERTY_BUDGET says how many smaller scenes are tried.
-std::string reportFailure(const Property& property, const Trial& trial);
+constexpr int kShrinkBudget = 3000;
 
-/// How many scenes were asked. The first failure is shrunk, saved and added to the test's.
+/// The smallest scene that still fails as a glTF file in the working directory, failure-NAME-SEED.gltf, and
+/// in words how to see it again.
+std::string reportFailure(const Property& property, const Trial& trial, int budget = kShrinkBudget);
+
+/// How many scenes were asked. The first failure is shrunk (EDGEWISE_PROPERTY_BUDGET: the smaller scenes that
+/// are tried), saved and added to the test's.
 int runProperty(const Property& property, const Campaign& campaign);
 
 }  // namespace edgewise::property
