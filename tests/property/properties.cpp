@@ -131,13 +131,19 @@ std::map<Owner, exact::Real> oracleWeights(const std::vector<exact::Face>& faces
     return weights;
 }
 
+exact::Rational depthAt(const ScreenScene& screen, const DepthPlane& plane, glm::dvec2 at_px) {
+    return exact::Rational(plane.dz_dx) * exact::Rational(at_px.x - screen.anchor_px.x) +
+           exact::Rational(plane.dz_dy) * exact::Rational(at_px.y - screen.anchor_px.y) +
+           exact::Rational(plane.z_anchor);
+}
+
 /// The distance of p from the line where the planes are equal, px; 0 beyond what passesNear takes for a pass.
 double missed(const ScreenScene& screen, const DepthPlane& p, const DepthPlane& q, glm::dvec2 at_px) {
-    const auto by = [](double a, double b) { return exact::Rational(a) - exact::Rational(b); };
-    const exact::Rational A = by(p.dz_dx, q.dz_dx), B = by(p.dz_dy, q.dz_dy);
-    const exact::Rational f = A * exact::Rational(at_px.x - screen.anchor_px.x) +
-                              B * exact::Rational(at_px.y - screen.anchor_px.y) + by(p.z_anchor, q.z_anchor);
-    const double gradient = std::hypot(double(A), double(B));
+    const exact::Rational f = depthAt(screen, p, at_px) - depthAt(screen, q, at_px);
+    const auto by = [](double a, double b) {
+        return double(exact::Rational(exact::Rational(a) - exact::Rational(b)));
+    };
+    const double gradient = std::hypot(by(p.dz_dx, q.dz_dx), by(p.dz_dy, q.dz_dy));
     const double distance = gradient > 0 ? std::abs(double(f)) / gradient : 0;
     return distance <= 0x1p-40 * (1 + 0x1p-20) ? distance : 0;
 }
@@ -354,6 +360,26 @@ Outcome coplanarTrianglesShareAPlane(const Trial& trial) {
     return {pairs > 0, std::nullopt};
 }
 
+Outcome planesPassThroughTheirCorners(const Trial& trial) {
+    if (trial.scene.lens == Lens::kPerspective) return kNotAsked;  // corners are rounded on the screen
+    const View view = viewOf(trial.scene, trial.box);
+    const ScreenScene screen = project(view.scene, view.camera, view.film);
+    for (const ScreenTriangle& t : screen.triangles)
+        for (const glm::vec3& corner : trial.scene.triangles[t.owner].p_world) {
+            const glm::dvec2 at(kFilmPx / 2 + double(corner.x), kFilmPx / 2 - double(corner.y)),
+                d = at - screen.anchor_px;
+            const DepthPlane& p = screen.planes[t.plane];
+            const double off =
+                double(exact::Rational(depthAt(screen, p, at) - exact::Rational(double(corner.z))));
+            // Each coefficient is rounded once, from one that double-double has to 2^-100.
+            const double size = std::abs(p.dz_dx * d.x) + std::abs(p.dz_dy * d.y) + std::abs(p.z_anchor);
+            if (std::abs(off) > (1 + 0x1p-20) * test::kUnit * size + 0x1p-100)
+                return wrong({trial.box.x0, trial.box.y0},
+                             fmt::format("the plane of triangle {} misses a corner by {:.3g}", t.owner, off));
+        }
+    return {};
+}
+
 Outcome omissionsDoNotShow(const Trial& trial) {
     RenderOptions all;
     all.no_skip = {"all"};
@@ -375,6 +401,7 @@ const std::vector<Property>& allProperties() {
                                            {"WindingDoesNotShow", windingDoesNotShow},
                                            {"ThreadsAndCropsDoNotShow", threadsAndCropsDoNotShow},
                                            {"CoplanarTrianglesShareAPlane", coplanarTrianglesShareAPlane},
+                                           {"PlanesPassThroughTheirCorners", planesPassThroughTheirCorners},
                                            {"OmissionsDoNotShow", omissionsDoNotShow}};
     return all;
 }

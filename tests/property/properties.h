@@ -61,6 +61,8 @@ Outcome windingDoesNotShow(const Trial& trial);
 Outcome threadsAndCropsDoNotShow(const Trial& trial);
 /// Triangles of one node that are coplanar in the file, by rational arithmetic, share one depth plane.
 Outcome coplanarTrianglesShareAPlane(const Trial& trial);
+/// The depth plane of a triangle has its corners' depths, but for the rounding of its three coefficients.
+Outcome planesPassThroughTheirCorners(const Trial& trial);
 /// What the planner leaves out changes weights by roundings only.
 Outcome omissionsDoNotShow(const Trial& trial);
 
