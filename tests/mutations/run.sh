@@ -54,18 +54,15 @@ copySources() {
     for m in "$here"/*.mutation; do touch "$2/$(field "$m" file)"; done
 }
 
-# build COPY LOG
-build() { cmake --build "$1/build/release" --target "${programs[@]/%/_tests}" >"$2" 2>&1; }
-
-# ask COPY LOG: prints the first test that fails, or nothing
+# ask COPY LOG: builds one program after the other and prints the first test that fails, or nothing
 ask() {
-    local program status
+    local program binary status
     for program in "${programs[@]}"; do
-        local binary
+        cmake --build "$1/build/release" --target "${program}_tests" >"$2" 2>&1 || fail "does not compile, see $2"
         binary=$(find "$1/build/release/tests" -name "${program}_tests" -type f)
         status=0
-        (cd "$1/.." && EDGEWISE_PROPERTY_BUDGET=0 timeout 600 "$binary" --gtest_fail_fast "--gtest_filter=$asked" --gtest_color=no) \
-            >"$2" 2>&1 || status=$?
+        (cd "$1/.." && EDGEWISE_PROPERTY_BUDGET=0 timeout 600 "$binary" --gtest_fail_fast \
+            "--gtest_filter=$asked" --gtest_color=no) >"$2" 2>&1 || status=$?
         ((status == 0)) && continue
         sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$2" | head -1 | grep . ||
             echo "$(sed -n 's/^\[ RUN      \] //p' "$2" | tail -1) (status $status)"
@@ -84,7 +81,6 @@ runAll() {
     copySources "$source" "$copy"
     cmake -S "$copy" -B "$copy/build/release" -G Ninja -D CMAKE_BUILD_TYPE=Release "${options[@]}" >"$work/configure.log" 2>&1 ||
         fail "cannot configure, see $work/configure.log"
-    build "$copy" "$work/build.log" || fail "the product does not build, see $work/build.log"
     caught=$(ask "$copy" "$work/unmutated.log")
     [[ -z $caught ]] || fail "$caught fails without any mutation, see $work/unmutated.log"
     for name in "${names[@]}"; do
@@ -92,7 +88,6 @@ runAll() {
         [[ -f $m ]] || fail "$name: no such mutation"
         local file=$copy/$(field "$m" file)
         mutated "$m" "$source" >"$file"
-        build "$copy" "$work/$name.build.log" || fail "$name does not compile, see $work/$name.build.log"
         caught=$(ask "$copy" "$work/$name.log")
         cat "$source/$(field "$m" file)" >"$file"
         [[ -n $caught ]] || survivors=$((survivors + 1))
