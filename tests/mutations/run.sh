@@ -11,7 +11,7 @@ readonly here
 # In the order in which they are asked: the first that fails has caught the mutation.
 # A count of hard cases that changes, or a shrinker that stops, is no proof that the picture is judged.
 readonly asked='-*MeetTheHardCases*:Shrink*'
-readonly programs=(property fuzz exact analytic)
+readonly programs=(property fuzz analytic exact)
 readonly copied=(CMakeLists.txt LICENSE README.md analytic cmake data pipeline shaders tests)
 
 fail() {
