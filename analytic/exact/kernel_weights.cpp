@@ -208,8 +208,12 @@ KernelWeights::~KernelWeights() = default;
 Weight KernelWeights::of(const Face& face, const Point& sample) const {
     Weight sum;
     if (beyond(face, sample, radius_)) return sum;
-    forEdges(face, [&](const Point& a, const Point& b) { add(sum, form_->of(edgeOf(a, b, sample))); });
+    forEdges(face, [&](const Point& a, const Point& b) { add(sum, ofEdge(a, b, sample)); });
     return sum;
+}
+
+Weight KernelWeights::ofEdge(const Point& a, const Point& b, const Point& sample) const {
+    return form_->of(edgeOf(a, b, sample));
 }
 
 }  // namespace edgewise::exact

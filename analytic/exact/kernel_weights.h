@@ -25,6 +25,11 @@ class KernelWeights {
 
     Weight of(const Face& face, const Point& sample) const;
 
+    /// What a directed edge adds: the sum over a face's cycles is of(face).
+    Weight ofEdge(const Point& a, const Point& b, const Point& sample) const;
+
+    const Rational& radius() const { return radius_; }
+
     struct Form;  ///< how one directed edge counts
 
   private:

@@ -42,8 +42,8 @@ FinePoint middleOf(const Chord& chord, bool turned) {
 
 /// What chords along both axes say of a face.
 struct Inside {
-    std::vector<FinePoint> clear;      ///< middles of disks
-    QuadReal widest[2] = {0, 0};       ///< of all chords along x and along y
+    std::vector<FinePoint> clear;  ///< middles of disks
+    QuadReal widest[2] = {0, 0};   ///< of all chords along x and along y
     QuadReal widest_middle = 0;
     FinePoint in_widest;
 };
@@ -76,20 +76,21 @@ class Judge {
     Judge(const ScreenScene& scene, const VisibleMap& map, const Region& box, MapReport& report)
         : scene_(scene), owners_(map), box_(box), report_(report) {}
 
-    void face(const Face& face, double area_px2) {
+    void face(std::size_t index, const Face& face, double area_px2) {
         const Inside inside = insideOf(face, box_);
         ++report_.faces;
         report_.tied_faces += face.tied.size() > 1;
-        if (inside.clear.empty()) return smallFace(face, inside, area_px2);
+        if (inside.clear.empty()) return smallFace(index, face, inside, area_px2);
         ++report_.faces_with_disk;
         for (const FinePoint& p : inside.clear) ask(p, owners_.at(p), face.owner);
     }
 
-    /// The map's own pieces, along x.
-    void pieces() {
-        forChords(owners_.walls(), box_, [&](const Chord& chord) {
+    /// The map's own pieces along one axis; segments along that axis are seen along the other alone.
+    void pieces(bool turned) {
+        const std::vector<Wall> walls = turned ? exchanged(owners_.walls()) : owners_.walls();
+        forChords(walls, turned ? exchanged(box_) : box_, [&](const Chord& chord) {
             if (chord.x1 - chord.x0 <= kDiskPx) return;
-            const FinePoint p = middleOf(chord, false);
+            const FinePoint p = middleOf(chord, turned);
             if (!clearOf(owners_.walls(), quadPoint(p), kDiskPx / 2)) return;
             const std::optional<Owner> shown = owners_.at(p);
             const bool chained = (!chord.before || chord.before->right == shown) &&
@@ -110,19 +111,19 @@ class Judge {
         ++report_.points;
         if (shown == expected) return;
         if (report_.ownership_errors++ > 0) return;
-        report_.first = fmt::format("at ({:.17g} + {:g}, {:.17g} + {:g}): {} instead of {}", p.grid.x,
-                                    p.rest.x, p.grid.y, p.rest.y, shown ? nameOf(*shown) : "no clear owner",
-                                    nameOf(expected));
+        report_.first =
+            fmt::format("at ({:.17g} + {:g}, {:.17g} + {:g}): {} instead of {}", p.grid.x, p.rest.x, p.grid.y,
+                        p.rest.y, shown ? nameOf(*shown) : "no clear owner", nameOf(expected));
     }
 
-    void smallFace(const Face& face, const Inside& inside, double area_px2) {
+    void smallFace(std::size_t index, const Face& face, const Inside& inside, double area_px2) {
         ++report_.small_faces;
         report_.small_area_px2 += area_px2;
         const bool surely = area_px2 < std::numbers::pi / 4 * kDiskPx * kDiskPx ||
                             inside.widest[0] < kDiskPx || inside.widest[1] < kDiskPx;
         report_.unsure_faces += !surely;
         if (inside.widest_middle > 0 && owners_.at(inside.in_widest) == face.owner) return;
-        ++report_.small_wrong;
+        report_.small_wrong.push_back(index);
         report_.small_wrong_area_px2 += area_px2;
     }
 
@@ -137,7 +138,8 @@ class Judge {
 void MapReport::add(const MapReport& o) {
     faces += o.faces, tied_faces += o.tied_faces, faces_with_disk += o.faces_with_disk;
     small_faces += o.small_faces, unsure_faces += o.unsure_faces, small_area_px2 += o.small_area_px2;
-    small_wrong += o.small_wrong, small_wrong_area_px2 += o.small_wrong_area_px2;
+    small_wrong.insert(small_wrong.end(), o.small_wrong.begin(), o.small_wrong.end());
+    small_wrong_area_px2 += o.small_wrong_area_px2;
     points += o.points;
     if (ownership_errors == 0) first = o.first;
     ownership_errors += o.ownership_errors;
@@ -147,20 +149,21 @@ void MapReport::add(const MapReport& o) {
 
 MapReport compareMaps(const ScreenScene& scene, const std::vector<Face>& faces, const VisibleMap& map,
                       const Region& region) {
-    const exact::Box box{{Rational(region.x0), Rational(region.y0)}, {Rational(region.x1), Rational(region.y1)}};
+    const exact::Box box{{Rational(region.x0), Rational(region.y0)},
+                         {Rational(region.x1), Rational(region.y1)}};
     Rational rest = (box.high.x - box.low.x) * (box.high.y - box.low.y);
     MapReport report;
     report.area_bound_px2 = kAreaShare * static_cast<double>(rest);
     Judge judge(scene, map, region, report);
     std::map<Owner, Rational> truth;
-    for (const Face& face : faces) {
-        const Rational area = areaWithin(face, box);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Rational area = areaWithin(faces[i], box);
         if (area == 0) continue;
-        truth[face.owner] += area, rest -= area;
-        judge.face(face, static_cast<double>(area));
+        truth[faces[i].owner] += area, rest -= area;
+        judge.face(i, faces[i], static_cast<double>(area));
     }
     truth[kBackground] = rest;
-    judge.pieces();
+    for (const bool turned : {false, true}) judge.pieces(turned);
     judge.areas(truth);
     return report;
 }

@@ -31,7 +31,8 @@ class Surplus {
     std::map<Owner, int> counts_;
 };
 
-/// How far right of the point a wall is at the point's ordinate. Sums and products of 113 bits round five times.
+/// How far right of the point a wall is at the point's ordinate. Sums and products of 113 bits round five
+/// times.
 struct Offset {
     QuadReal value, doubt;
 };
@@ -95,8 +96,7 @@ std::vector<Wall> wallsOf(const VisibleMap& map) {
     return walls;
 }
 
-MapOwners::MapOwners(const VisibleMap& map)
-    : map_(map), walls_(wallsOf(map)), exchanged_(exchanged(walls_)) {
+MapOwners::MapOwners(const VisibleMap& map) : map_(map), walls_(wallsOf(map)), exchanged_(exchanged(walls_)) {
     for (const VisibleSegment& s : map.segments) {
         const exact::Point a = exactPoint(s.a), b = exactPoint(s.b);
         a_.push_back(b.y < a.y ? b : a), b_.push_back(b.y < a.y ? a : b);

@@ -57,8 +57,8 @@ void visitSlab(const std::vector<Through>& through, const exact::Region& box, Qu
         if (before) chord.x0 = std::max(x0, before->middle);
         if (after) chord.x1 = std::min(x1, after->middle);
         if (before && after)
-            chord.widest = std::min(
-                chord.widest, std::max(after->top - before->top, after->bottom - before->bottom));
+            chord.widest =
+                std::min(chord.widest, std::max(after->top - before->top, after->bottom - before->bottom));
         if (chord.x0 < chord.x1) visit(chord);
     }
 }
@@ -112,8 +112,7 @@ void forChords(const std::vector<Wall>& walls, const exact::Region& box,
     std::vector<const Wall*> by_top, open;
     for (const Wall& w : walls)
         if (w.a.y < w.b.y && w.b.y > box.y0 && w.a.y < box.y1) by_top.push_back(&w);
-    std::sort(by_top.begin(), by_top.end(),
-              [](const Wall* p, const Wall* q) { return p->a.y < q->a.y; });
+    std::sort(by_top.begin(), by_top.end(), [](const Wall* p, const Wall* q) { return p->a.y < q->a.y; });
     const std::vector<QuadReal> borders = slabBorders(walls, box);
     for (std::size_t slab = 0, next = 0; slab + 1 < borders.size(); ++slab) {
         const QuadReal y0 = borders[slab], y1 = borders[slab + 1];
@@ -132,8 +131,7 @@ bool clearOf(const std::vector<Wall>& walls, const QuadPoint& p, double radius) 
 
 std::vector<Wall> exchanged(const std::vector<Wall>& walls) {
     std::vector<Wall> out;
-    for (const Wall& w : walls)
-        out.push_back(wallBetween({w.a.y, w.a.x}, {w.b.y, w.b.x}, w.right, w.left));
+    for (const Wall& w : walls) out.push_back(wallBetween({w.a.y, w.a.x}, {w.b.y, w.b.x}, w.right, w.left));
     return out;
 }
 

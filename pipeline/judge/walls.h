@@ -37,10 +37,10 @@ QuadReal abscissa(const Wall& wall, QuadReal y);
 
 /// A piece between two neighbouring walls of the middle ordinate of a slab in which no wall begins or ends.
 struct Chord {
-    QuadReal y, x0, x1;             ///< cut to the box
-    QuadReal widest;                ///< of the whole trapezoid: no chord in it is longer
-    std::size_t index;              ///< how many walls are at its left
-    const Wall *before, *after;     ///< nullptr where there is none
+    QuadReal y, x0, x1;          ///< cut to the box
+    QuadReal widest;             ///< of the whole trapezoid: no chord in it is longer
+    std::size_t index;           ///< how many walls are at its left
+    const Wall *before, *after;  ///< nullptr where there is none
 };
 
 /// All chords of the box, slab by slab, from left to right; empty ones are left out.
