@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "analytic/exact/clipped_area.h"
 #include "analytic/exact/gauss_legendre.h"
 #include "analytic/exact/separable_factor.h"
 
@@ -209,38 +210,11 @@ void forEdges(const Face& face, const Visit& visit) {
         for (std::size_t i = 0; i < cycle.size(); ++i) visit(cycle[i], cycle[(i + 1) % cycle.size()]);
 }
 
-/// int clamp(x - left, 0, width) dy from a to b, y within [low, high].
-Rational clampedArea(Point a, Point b, const Rational& left, const Rational& width, const Rational& low,
-                     const Rational& high) {
-    const bool turned = b.y < a.y;
-    if (turned) std::swap(a, b);
-    if (a.y == b.y || b.y <= low || a.y >= high) return 0;
-    const Rational slope = (b.x - a.x) / (b.y - a.y);
-    const auto abscissa = [&](const Rational& y) { return Rational(a.x + slope * (y - a.y) - left); };
-    std::vector<Rational> cuts = {std::max(a.y, low), std::min(b.y, high)};
-    for (const Rational& x : {left, Rational(left + width)}) {
-        if (slope == 0) continue;
-        const Rational y = a.y + (x - a.x) / slope;
-        if (y > cuts[0] && y < cuts[1]) cuts.push_back(y);
-    }
-    std::sort(cuts.begin(), cuts.end());
-    Rational sum = 0;
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        const Rational x = abscissa((cuts[i] + cuts[i + 1]) / 2);
-        sum += (cuts[i + 1] - cuts[i]) * std::clamp(x, Rational(0), width);
-    }
-    return turned ? -sum : sum;
-}
-
 }  // namespace
 
 Rational boxWeight(const Face& face, const Point& sample, const Rational& radius) {
-    if (beyond(face, sample, radius)) return 0;
-    Rational sum = 0;
-    const Rational left = sample.x - radius, low = sample.y - radius, high = sample.y + radius;
-    forEdges(face,
-             [&](const Point& a, const Point& b) { sum += clampedArea(a, b, left, 2 * radius, low, high); });
-    return sum / (4 * radius * radius);
+    const Box support{{sample.x - radius, sample.y - radius}, {sample.x + radius, sample.y + radius}};
+    return areaWithin(face, support) / (4 * radius * radius);
 }
 
 KernelWeights::KernelWeights(const Prefilter& filter) : radius_(filter.radius) {
@@ -255,7 +229,7 @@ KernelWeights::~KernelWeights() = default;
 Weight KernelWeights::of(const Face& face, const Point& sample) const {
     Weight sum;
     if (beyond(face, sample, radius_)) return sum;
-    forEdges(face, [&](const Point& a, const Point& b) { add(sum, form_->of(edgeOf(a, b, sample))); });
+    forEdges(face, [&](const Point& a, const Point& b) { add(sum, ofEdge(a, b, sample)); });
     return sum;
 }
 

@@ -35,6 +35,8 @@ class KernelWeights {
     /// Where a point stands along the border: radial, its angle in turns, (-1/2, 1/2]; separable, K(y).
     Weight position(const Point& p, const Point& sample) const;
 
+    const Rational& radius() const { return radius_; }
+
     struct Form;  ///< how one directed edge counts
 
   private:
