@@ -150,13 +150,26 @@ bool chainsFrom(const Crossings& c, Owner label, bool circle, double limit) {
     return !circle || label == start;
 }
 
+/// Whether rounding alone may have made all changes of labels: every cluster of crossings that may lie in any
+/// order leaves the label as it was, and none is where the base is.
+bool baseDecides(const Crossings& c, bool circle) {
+    for (std::size_t first = 0; first < c.size();) {
+        const Cluster cluster{first, clusterEnd(c, first, HUGE_VAL)};
+        if (labelBefore(c, cluster) || holdsBase(c, cluster, circle)) return false;
+        first = cluster.last;
+    }
+    return true;
+}
+
 /// The label before the first crossing. Along a side it is the one that all crossings together leave once
 /// more than they enter it, if there is one: no order is needed. Near a tangent much may be doubted, and then
-/// a cluster may hide what its crossings say: so first as if little were.
+/// a cluster may hide what its crossings say: so first as if little were, unless the base can tell.
 Owner startLabel(Crossings& c, Owner base, bool circle) {
     constexpr double kLittle = 0x1p-46;
     if (!circle)
         if (const std::optional<Owner> label = labelBefore(c, {0, c.size()})) return *label;
+    noteDoubts(c, HUGE_VAL);
+    if (baseDecides(c, circle)) return base;
     Owner label = base;
     for (const double limit : {kLittle, HUGE_VAL}) {
         noteDoubts(c, limit);

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "analytic/transcendental.h"
+#include "analytic/quad_real.h"
 
 namespace edgewise {
 
@@ -27,6 +27,11 @@ void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
 #endif
 
 namespace {
+
+/// Constants are made in 113 bits and rounded once: they are in every term.
+double rounded(QuadReal x) {
+    return static_cast<double>(x);
+}
 
 /// e^-(9.25^2 / 2) < 2^-61.
 constexpr double kGaussianReach = 9.25;
@@ -52,14 +57,23 @@ TableView viewOf(const KernelTable& table) {
             viewOf(table.rule)};
 }
 
+/// (1 - e^-v)/v.
+QuadReal quadPhi1(QuadReal v) {
+    if (v > QuadReal(0x1p-10)) return (1 - quadExp(-v)) / v;
+    QuadReal sum = 0;  // eleven terms leave v^11/12! < 2^-138
+    for (int k = 11; k >= 1; --k) sum = (1 - v * sum) / k;
+    return sum;
+}
+
 void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter) {
     LaneKernel& lanes = kernel.lanes;
     lanes.form = TermForm::kGaussian;
     lanes.sigma = filter.sigma.value_or(filter.radius / 3.0);
-    lanes.inverse_reach = 1.0 / (M_SQRT2 * lanes.sigma);
+    const QuadReal twice = 2 * QuadReal(lanes.sigma) * lanes.sigma;
+    lanes.inverse_reach = rounded(1 / quadSqrt(twice));
     lanes.inner_radius = std::min(filter.radius, kGaussianReach * lanes.sigma);
-    const double v = lanes.inner_radius * lanes.inverse_reach;
-    lanes.scale = 1.0 / (2.0 * M_PI * lanes.inner_radius * lanes.inner_radius * f64::phi1(v * v));
+    const QuadReal reach = lanes.inner_radius;
+    lanes.scale = rounded(1 / (2 * quadPi() * reach * reach * quadPhi1(reach * reach / twice)));
     constexpr double kLimits[kPieceRules] = {0.5, 1.0, kLongestPieceSigmas};
     for (int i = 0; i < kPieceRules; ++i) {
         kernel.piece_rules[i] = pieceRule(kLimits[i]);
@@ -68,14 +82,14 @@ void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter) {
 }
 
 void preparePoly(EdgeKernel& kernel, const Prefilter& filter) {
-    double integral = 0.0;
+    QuadReal integral = 0;
     for (std::size_t k = 0; k < filter.poly.size(); ++k) {
         kernel.poly.push_back(filter.poly[k] / static_cast<double>(2 * k + 2));
-        integral += kernel.poly.back();
+        integral += QuadReal(filter.poly[k]) / static_cast<int>(2 * k + 2);
     }
     kernel.poly_rule = gaussRule(static_cast<int>(filter.poly.size()));
     kernel.lanes.form = TermForm::kPoly;
-    kernel.lanes.scale = 1.0 / (2.0 * M_PI * filter.radius * filter.radius * integral);
+    kernel.lanes.scale = rounded(1 / (2 * quadPi() * filter.radius * filter.radius * integral));
     kernel.lanes.poly = kernel.poly.data();
     kernel.lanes.poly_rule = viewOf(kernel.poly_rule);
 }
@@ -89,16 +103,16 @@ void prepareStrip(EdgeKernel& kernel, const Prefilter& filter) {
 }  // namespace
 
 EdgeKernel::EdgeKernel(const Prefilter& filter) {
-    const double R2 = filter.radius * filter.radius;
+    const QuadReal R2 = QuadReal(filter.radius) * filter.radius;
     lanes.radius = lanes.inner_radius = filter.radius;
     switch (filter.kind) {
         case KernelKind::kDisk:
             lanes.form = TermForm::kDisk;
-            lanes.scale = 1.0 / (2.0 * M_PI * R2);
+            lanes.scale = rounded(1 / (2 * quadPi() * R2));
             return;
         case KernelKind::kCone:
             lanes.form = TermForm::kCone;
-            lanes.scale = 3.0 / (M_PI * R2);
+            lanes.scale = rounded(3 / (quadPi() * R2));
             return;
         case KernelKind::kGaussian:
             prepareGaussian(*this, filter);

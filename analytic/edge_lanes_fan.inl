@@ -16,13 +16,16 @@ EDGEWISE_FN real phi1Mean(const RuleView& rule, real h, real t, real step) {
     return sum;
 }
 
-/// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it. [E9]
+/// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it.
+/// Nodes are counted from the end nearer to the foot point: from the other they would lose their digits near the
+/// sample, where phi1 is large. [E9]
 EDGEWISE_FN real gaussianMean(const LaneKernel& kernel, real h, Piece piece) {
     const real sigmas = piece.length / kernel.sigma;
     const real wanted = nearestInteger(sigmas * (1.0 / kLongestPieceSigmas) + 0.5);  // ceil, or one more
     const real parts = wanted < 1.0 ? splat(1.0) : wanted;
     const real part = sigmas / parts;
-    const real hs = h * kernel.inverse_reach, ts = piece.t1 * kernel.inverse_reach;
+    const real start = absolute(piece.t1) <= absolute(piece.t2) ? piece.t1 : -piece.t2;  // phi1 is even in t
+    const real hs = h * kernel.inverse_reach, ts = start * kernel.inverse_reach;
     const real step = piece.length * kernel.inverse_reach / parts;
     real mean = splat(0.0);
     double lower = -1.0;
@@ -57,20 +60,24 @@ EDGEWISE_FN real polyMean(const LaneKernel& kernel, real h, Piece piece) {
     return mean;
 }
 
-/// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. [E9]
+/// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. The
+/// parts' lengths add up to those of a short piece, which may be far better known than its ends: on the circle both
+/// forms of g agree, so that a cut may err along the line, but no length may be lost. Of a long piece the ends of the
+/// inside part are known better than its length. [E9]
 EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece) {
-    const real c = halfChord(h, splat(kernel.inner_radius));
-    const real first_end = smaller(piece.t2, -c), second_start = larger(piece.t1, c);
-    real angle = splat(0.0);
-    const real first = piece.t2 < -c ? piece.length : first_end - piece.t1;
-    const real second = piece.t1 > c ? piece.length : piece.t2 - second_start;
-    angle = angle + (piece.t1 < first_end ? subtendedAngle(h, piece.t1, first_end, first) : splat(0.0));
-    angle = angle + (second_start < piece.t2 ? subtendedAngle(h, second_start, piece.t2, second) : splat(0.0));
-    const real t1 = larger(piece.t1, -c), t2 = smaller(piece.t2, c);
-    const real rest = larger(t2 - t1, splat(0.0));
-    piece.length = piece.t1 < -c ? rest : (piece.t2 > c ? rest : piece.length);
-    piece.t1 = t1;
-    piece.t2 = t2;
+    const real c = halfChord(h, splat(kernel.inner_radius)), none = splat(0.0);
+    const mask whole = (piece.t2 <= -c) | (c <= 0.0);
+    real before = smaller(larger(-c - piece.t1, none), piece.length);
+    before = whole ? piece.length : before;
+    real after = smaller(larger(piece.t2 - c, none), piece.length - before);
+    after = piece.t1 >= c ? piece.length - before : after;
+    const real before_end = whole ? piece.t2 : -c, after_start = larger(piece.t1, c);
+    real angle = before > 0.0 ? subtendedAngle(h, piece.t1, before_end, before) : none;
+    angle = angle + (after > 0.0 ? subtendedAngle(h, after_start, piece.t2, after) : none);
+    const mask is_long = (piece.length > c) & (before + after > 0.0);
+    piece.t1 = larger(piece.t1, -c);
+    piece.t2 = smaller(piece.t2, c);
+    piece.length = is_long ? larger(piece.t2 - piece.t1, none) : (piece.length - before) - after;
     return angle * 0.15915494309189535;
 }
 
@@ -103,30 +110,48 @@ EDGEWISE_FN void circleCrossing(const LaneKernel& kernel, const Line& line, real
     store((1.0 + amplified) * 0x1p-51, first, terms.doubt[slot]);
 }
 
-EDGEWISE_FN void fanTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+/// The segment against the support's disk: which ends are inside (0 or 1), where it enters and leaves, what is inside.
+struct DiskCut {
+    real in_a, in_b, through, entry, exit;
+    mask touched;
+    Piece piece;
+};
+
+EDGEWISE_FN DiskCut cutByDisk(const LaneKernel& kernel, const Line& line) {
     const double R2 = kernel.radius * kernel.radius;
     const real one = splat(1.0), none = splat(0.0);
     const real c = halfChord(line.h, splat(kernel.radius));
-    const real in_a = line.a_x * line.a_x + line.a_y * line.a_y <= R2 ? one : none;
-    const real in_b = line.b_x * line.b_x + line.b_y * line.b_y <= R2 ? one : none;
+    DiskCut cut;
+    cut.in_a = line.a_x * line.a_x + line.a_y * line.a_y <= R2 ? one : none;
+    cut.in_b = line.b_x * line.b_x + line.b_y * line.b_y <= R2 ? one : none;
     const real chord = (line.t_a < 0.0 ? one : none) * (line.t_b > 0.0 ? one : none) * (c > 0.0 ? one : none);
-    const real through = chord * (1.0 - in_a) * (1.0 - in_b);
-    const mask touched = in_a + in_b + through > 0.5;
-    terms.touched |= laneSet(touched, first);
-    if (!any(touched)) {
-        store(toFixed(none), first, terms.value);
-        return;
-    }
-    Piece piece;
+    cut.through = chord * (1.0 - cut.in_a) * (1.0 - cut.in_b);
+    cut.touched = cut.in_a + cut.in_b + cut.through > 0.5;
     // A short piece may count as leaving where its line enters, and an end may lie past the rounded chord: the
     // crossing is on the segment all the same. [E4]
-    const real entry = larger(smaller(-c, line.t_b), line.t_a), exit = smaller(larger(c, line.t_a), line.t_b);
-    piece.t1 = in_a > 0.5 ? line.t_a : entry;
-    piece.t2 = in_b > 0.5 ? line.t_b : exit;
-    piece.length = in_a + in_b > 1.5 ? line.length : larger(piece.t2 - piece.t1, none);
-    piece.length = touched ? piece.length : none;
-    const real value = flushTiny(fanTerm(kernel, line.h, piece));
-    store(toFixed(touched ? value : none), first, terms.value);
-    circleCrossing(kernel, line, entry, in_a, in_b, (1.0 - in_a) * (in_b + through) > 0.5, 0, first, terms);
-    circleCrossing(kernel, line, exit, in_a, in_b, (1.0 - in_b) * (in_a + through) > 0.5, 1, first, terms);
+    cut.entry = larger(smaller(-c, line.t_b), line.t_a), cut.exit = smaller(larger(c, line.t_a), line.t_b);
+    cut.piece.t1 = cut.in_a > 0.5 ? line.t_a : cut.entry;
+    cut.piece.t2 = cut.in_b > 0.5 ? line.t_b : cut.exit;
+    cut.piece.length = cut.in_a + cut.in_b > 1.5 ? line.length : larger(cut.piece.t2 - cut.piece.t1, none);
+    cut.piece.length = cut.touched ? cut.piece.length : none;
+    return cut;
+}
+
+/// Returns the inside parts before they are rounded to fixed point.
+EDGEWISE_FN real fanTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+    const DiskCut cut = cutByDisk(kernel, line);
+    const real none = splat(0.0);
+    terms.touched |= laneSet(cut.touched, first);
+    if (!any(cut.touched)) {
+        store(toFixed(none), first, terms.value);
+        return none;
+    }
+    const real term = flushTiny(fanTerm(kernel, line.h, cut.piece));
+    const real value = cut.touched ? term : none;
+    store(toFixed(value), first, terms.value);
+    circleCrossing(kernel, line, cut.entry, cut.in_a, cut.in_b, (1.0 - cut.in_a) * (cut.in_b + cut.through) > 0.5, 0,
+                   first, terms);
+    circleCrossing(kernel, line, cut.exit, cut.in_a, cut.in_b, (1.0 - cut.in_b) * (cut.in_a + cut.through) > 0.5, 1,
+                   first, terms);
+    return value;
 }

@@ -66,7 +66,8 @@ EDGEWISE_FN real stripSum(const TableView& table, const Line& line, real t1, rea
     return sum;
 }
 
-EDGEWISE_FN void stripTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
+/// Returns the terms before they are rounded to fixed point.
+EDGEWISE_FN real stripTerms(const LaneKernel& kernel, const Line& line, int first, EdgeTerms& terms) {
     const TableView& table = kernel.table;
     const double R = kernel.radius;
     const real one = splat(1.0), none = splat(0.0);
@@ -86,7 +87,7 @@ EDGEWISE_FN void stripTerms(const LaneKernel& kernel, const Line& line, int firs
     const mask entered = right_a * (1.0 - right_b) * on_side > 0.5, left = right_b * (1.0 - right_a) * on_side > 0.5;
     const unsigned entries = laneSet(entered, first), exits = laneSet(left, first);
     terms.touched |= laneSet(value < 0.0 ? one > 0.0 : value > 0.0, first) | entries | exits;
-    if (!(entries | exits)) return;
+    if (!(entries | exits)) return value;
     const bits position = toFixed(kernelIntegral(table, y));
     // y errs by 4u R / |d.x|, and no more than the segment is high; [E13]
     const real amplified = smaller(1.0 / absolute(nonZero(line.d_x)), splat(0x1p27));
@@ -99,4 +100,5 @@ EDGEWISE_FN void stripTerms(const LaneKernel& kernel, const Line& line, int firs
         store(spread, first, terms.spread[slot]);
         store(doubt, first, terms.doubt[slot]);
     }
+    return value;
 }

@@ -39,9 +39,9 @@ class PixelWeights {
     void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
     /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is
-    /// asked only when nothing crosses that border and no segment comes within 2^-31 px of the point.  Writes
-    /// sample i's owners in ascending order to out[offset[i]..offset[i + 1]); owners of weight exactly 0 are
-    /// left out; the weights of a sample sum to exactly 2^60.
+    /// asked only when nothing certainly changes hands on that border and no segment comes within 2^-31 px of
+    /// the point.  Writes sample i's owners in ascending order to out[offset[i]..offset[i + 1]); owners of
+    /// weight exactly 0 are left out; the weights of a sample sum to exactly 2^60.
     void finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset);
 
     /// Terms evaluated since construction: (segment, sample) pairs whose support meets the segment.

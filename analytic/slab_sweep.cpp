@@ -199,6 +199,7 @@ int SlabSweep::State::compare(std::uint32_t p, std::uint32_t q, std::size_t slab
     constexpr double kSame = 2 * 0x1p-76;
     const double d = tracks[p].x_mid - tracks[q].x_mid;
     if (std::abs(d) > kUnsure) return d > 0.0 ? 1 : -1;
+    ++out->counts.fine_orders;
     const FineCoordinate p0 = xOf(topPoint(p, slab)), q0 = xOf(topPoint(q, slab));
     const FineCoordinate p1 = xOf(bottomPoint(p, slab)), q1 = xOf(bottomPoint(q, slab));
     const double fine =

@@ -20,6 +20,7 @@ void VisibilityCounts::add(const VisibilityCounts& other) {
     depth_lines += other.depth_lines;
     exact_depth += other.exact_depth;
     hidden += other.hidden;
+    fine_orders += other.fine_orders;
     closings += other.closings;
 }
 

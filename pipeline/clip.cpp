@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "analytic/double_double.h"
@@ -18,12 +19,25 @@ constexpr double kSmallestNear = 0x1p-300;
 
 constexpr int kNear = 0, kFirstSide = 1, kFar = 5;
 
-f64::dd distance(const glm::dvec3& a, double b, const glm::dvec3& p) {
+f64::dd distance(const glm::dvec3& a, double b, const EyePoint& q) {
     using namespace f64;
-    return ddAdd(ddAdd(twoProd(a.x, p.x), twoProd(a.y, p.y)), ddAdd(twoProd(a.z, p.z), ddFrom(b)));
+    dd sum = ddFrom(b);
+    for (int axis = 0; axis < 3; ++axis) sum = ddAdd(sum, ddMulReal(dd{q.p[axis], q.rest[axis]}, a[axis]));
+    return sum;
 }
 
 }  // namespace
+
+EyePoint refined(const glm::dmat4& m, const glm::dvec3& p_world) {
+    using namespace f64;
+    EyePoint out;
+    for (int row = 0; row < 3; ++row) {
+        dd sum = ddFrom(m[3][row]);
+        for (int k = 0; k < 3; ++k) sum = ddAdd(sum, twoProd(m[k][row], p_world[k]));
+        out.p[row] = sum.hi, out.rest[row] = sum.lo;
+    }
+    return out;
+}
 
 ClipVolume::ClipVolume(const Camera& camera, const ScreenMap& map) {
     const double znear = map.perspective ? std::max(camera.znear, kSmallestNear) : camera.znear;
@@ -42,27 +56,50 @@ ClipVolume::ClipVolume(const Camera& camera, const ScreenMap& map) {
     if (camera.zfar) planes_[kFar] = {{0.0, 0.0, 1.0}, *camera.zfar};
 }
 
-std::uint8_t ClipVolume::outcode(const glm::dvec3& p_eye) const {
+std::uint8_t ClipVolume::outcode(const glm::dmat4& m, const glm::dvec3& p_world, glm::dvec3& p_eye) const {
+    // p_eye has three roundings of a sum of this size, at() four more.
+    const glm::dvec3 p = glm::abs(p_world);
+    double size = 0.0;
+    for (int row = 0; row < 3; ++row)
+        size = std::max(size, std::abs(m[0][row]) * p.x + std::abs(m[1][row]) * p.y +
+                                  std::abs(m[2][row]) * p.z + std::abs(m[3][row]));
+    std::optional<EyePoint> exact;
     unsigned code = 0;
-    for (int i = 0; i < plane_count_; ++i)
-        if (planes_[i].at(p_eye) < 0.0) code |= 1u << i;
+    for (int i = 0; i < plane_count_; ++i) {
+        const Plane& plane = planes_[i];
+        const double h = plane.at(p_eye);
+        const glm::dvec3 a = glm::abs(plane.a);
+        const bool sure = std::abs(h) > 8 * 0x1p-53 * ((a.x + a.y + a.z) * size + std::abs(plane.b));
+        if (!sure && !exact) exact = refined(m, p_world);
+        if (sure ? h < 0.0 : !inside(i, *exact)) code |= 1u << i;
+    }
+    if (exact) p_eye = exact->p;
     return static_cast<std::uint8_t>(code);
 }
 
-/// Formed in double-double from the lexicographically smaller endpoint and rounded once: a far endpoint costs
-/// a near crossing no digits.
-glm::dvec3 ClipVolume::crossing(int plane, const glm::dvec3& p, const glm::dvec3& q) const {
+bool ClipVolume::inside(int plane, const EyePoint& p) const {
+    return distance(planes_[plane].a, planes_[plane].b, p).hi >= 0.0;
+}
+
+/// Formed in double-double from the lexicographically smaller endpoint: a far endpoint costs a near crossing
+/// no digits, nor does a small angle with the plane.
+EyePoint ClipVolume::crossing(int plane, const EyePoint& p, const EyePoint& q) const {
     using namespace f64;
-    const bool ordered = std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-    const glm::dvec3 &a = ordered ? p : q, &b = ordered ? q : p;
+    const auto order = [](const EyePoint& e) {
+        return std::make_tuple(e.p.x, e.p.y, e.p.z, e.rest.x, e.rest.y, e.rest.z);
+    };
+    const bool ordered = order(p) < order(q);
+    const EyePoint &a = ordered ? p : q, &b = ordered ? q : p;
     const dd h_a = distance(planes_[plane].a, planes_[plane].b, a);
-    const dd fall = ddSub(h_a, distance(planes_[plane].a, planes_[plane].b, b));
-    const dd t = fall.hi == 0.0 ? ddFrom(0.5) : ddDiv(h_a, fall);
-    glm::dvec3 made;
-    for (int axis = 0; axis < 3; ++axis)
-        made[axis] = ddAdd(ddFrom(a[axis]), ddMul(t, ddSub(ddFrom(b[axis]), ddFrom(a[axis])))).hi;
-    if (plane == kNear) made.z = planes_[kNear].b;
-    if (plane == kFar) made.z = -planes_[kFar].b;
+    const dd t = ddDiv(h_a, ddSub(h_a, distance(planes_[plane].a, planes_[plane].b, b)));
+    EyePoint made;
+    for (int axis = 0; axis < 3; ++axis) {
+        const dd from{a.p[axis], a.rest[axis]}, to{b.p[axis], b.rest[axis]};
+        const dd at = ddAdd(from, ddMul(t, ddSub(to, from)));
+        made.p[axis] = at.hi, made.rest[axis] = at.lo;
+    }
+    if (plane == kNear) made.p.z = planes_[kNear].b, made.rest.z = 0.0;
+    if (plane == kFar) made.p.z = -planes_[kFar].b, made.rest.z = 0.0;
     return made;
 }
 
@@ -73,10 +110,9 @@ void ClipVolume::clip(ClipPolygon& polygon, std::uint8_t codes) const {
         polygon.size = 0;
         for (int i = 0; i < old.size; ++i) {
             const int next = (i + 1) % old.size;
-            const bool inside = planes_[plane].at(old.p_eye[i]) >= 0.0;
-            const bool next_inside = planes_[plane].at(old.p_eye[next]) >= 0.0;
-            if (inside) polygon.push(old.p_eye[i], old.vertex[i]);
-            if (inside != next_inside) polygon.push(crossing(plane, old.p_eye[i], old.p_eye[next]), kNone);
+            const bool here_inside = inside(plane, old.eye[i]), next_inside = inside(plane, old.eye[next]);
+            if (here_inside) polygon.push(old.eye[i], old.vertex[i]);
+            if (here_inside != next_inside) polygon.push(crossing(plane, old.eye[i], old.eye[next]), kNone);
         }
         if (polygon.size < 3) return;
     }

@@ -10,17 +10,26 @@
 
 namespace edgewise {
 
+/// A point of eye space, and what rounding it to double lost: where an edge meets a plane at an angle of
+/// 1e-10, a rounded coordinate moves the crossing by 1e-6.
+struct EyePoint {
+    glm::dvec3 p{0.0}, rest{0.0};
+};
+
+/// The map's image in double-double, p rounded to nearest.
+EyePoint refined(const glm::dmat4& camera_from_world, const glm::dvec3& p_world);
+
 /// The polygon of a clipped triangle: at most nine corners, and room for rounded ones that are not quite
 /// convex.
 struct ClipPolygon {
     static constexpr int kCapacity = 32;
-    std::array<glm::dvec3, kCapacity> p_eye;
+    std::array<EyePoint, kCapacity> eye;
     std::array<std::uint32_t, kCapacity> vertex;  ///< kNone for a corner that clipping made
     int size = 0;
 
-    void push(const glm::dvec3& p, std::uint32_t id) {
+    void push(const EyePoint& p, std::uint32_t id) {
         if (size == kCapacity) return;
-        p_eye[size] = p;
+        eye[size] = p;
         vertex[size++] = id;
     }
 };
@@ -32,7 +41,10 @@ class ClipVolume {
 
     ClipVolume(const Camera& camera, const ScreenMap& map);
 
-    std::uint8_t outcode(const glm::dvec3& p_eye) const;
+    /// Of the map's exact image. `p_eye` comes in double; it is rounded to nearest where that could not tell
+    /// a side, so that w > 0 stays true of what is inside.
+    std::uint8_t outcode(const glm::dmat4& camera_from_world, const glm::dvec3& p_world,
+                         glm::dvec3& p_eye) const;
 
     /// Clips against the planes in `codes`. A new corner depends on its edge's two endpoints alone, not on
     /// their order: neighbours get the same bits and no crack opens. Fewer than three corners: nothing is
@@ -46,7 +58,8 @@ class ClipVolume {
         double b = 0.0;
         double at(const glm::dvec3& p) const { return ((a.x * p.x + a.y * p.y) + a.z * p.z) + b; }
     };
-    glm::dvec3 crossing(int plane, const glm::dvec3& p, const glm::dvec3& q) const;
+    bool inside(int plane, const EyePoint& p) const;
+    EyePoint crossing(int plane, const EyePoint& p, const EyePoint& q) const;
 
     std::array<Plane, kPlanes> planes_;
     int plane_count_ = kPlanes;

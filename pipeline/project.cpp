@@ -25,8 +25,9 @@ struct EyeVertices {
     PointTable table;
     std::vector<std::size_t> first;  ///< by geometry, into ids
     std::vector<std::uint32_t> ids;
-    std::vector<std::uint8_t> outcode;  ///< by id
-    std::vector<glm::dvec2> p_px;       ///< by id; where the outcode is 0
+    std::vector<const glm::dvec3*> p_world;  ///< by id; of the first that is there
+    std::vector<std::uint8_t> outcode;       ///< by id
+    std::vector<glm::dvec2> p_px;            ///< by id; where the outcode is 0
 };
 
 EyeVertices weldVertices(const Scene& scene, const glm::dmat4& camera_from_world) {
@@ -39,19 +40,26 @@ EyeVertices weldVertices(const Scene& scene, const glm::dmat4& camera_from_world
             p_eye[first[g] + i] = glm::dvec3(camera_from_world * glm::dvec4(p_world[i], 1.0));
         });
     }
-    EyeVertices vertices{PointTable(p_eye.size()), std::move(first), {}, {}, {}};
+    EyeVertices vertices{PointTable(p_eye.size()), std::move(first), {}, {}, {}, {}};
     vertices.ids.reserve(p_eye.size());
-    for (const glm::dvec3& p : p_eye) vertices.ids.push_back(vertices.table.id(p));
+    std::size_t next = 0;
+    for (const Geometry& g : scene.geometry)
+        for (const glm::dvec3& p_world : g.position_world) {
+            vertices.ids.push_back(vertices.table.id(p_eye[next++]));
+            if (vertices.ids.back() == vertices.p_world.size()) vertices.p_world.push_back(&p_world);
+        }
     return vertices;
 }
 
-void placeVertices(const ClipVolume& volume, const ScreenMap& map, EyeVertices& vertices) {
+void placeVertices(const ClipVolume& volume, const ScreenMap& map, const glm::dmat4& camera_from_world,
+                   EyeVertices& vertices) {
     const auto& p_eye = vertices.table.points();
     vertices.outcode.resize(p_eye.size());
     vertices.p_px.resize(p_eye.size());
     parallelFor(p_eye.size(), [&](std::size_t i) {
-        vertices.outcode[i] = volume.outcode(p_eye[i]);
-        if (vertices.outcode[i] == 0) vertices.p_px[i] = map.toScreen(p_eye[i]);
+        glm::dvec3 p = p_eye[i];
+        vertices.outcode[i] = volume.outcode(camera_from_world, *vertices.p_world[i], p);
+        if (vertices.outcode[i] == 0) vertices.p_px[i] = map.toScreen(p);
     });
 }
 
@@ -71,13 +79,14 @@ class Projector {
     Projector(const Scene& scene, const ResolvedCamera& camera, const Film& film, Progress& progress)
         : scene_(scene),
           progress_(begun(progress, scene)),
+          camera_from_world_(camera.camera_from_world),
           map_(makeScreenMap(camera, film)),
           volume_(camera.camera, map_),
           groups_(passed(findCoplanar(scene))),
           planes_(passed(makeEyePlanes(scene, groups_, camera.camera_from_world))),
           vertices_(passed(weldVertices(scene, camera.camera_from_world))),
           opacity_(opacityOf(scene)) {
-        placeVertices(volume_, map_, vertices_);
+        placeVertices(volume_, map_, camera_from_world_, vertices_);
     }
 
     ScreenScene run(ScreenPieces& pieces) {
@@ -183,15 +192,18 @@ class Projector {
     bool emitClipped(const std::array<std::uint32_t, 3>& id, std::uint8_t codes, Owner owner,
                      std::uint32_t plane, Run& run) const {
         ClipPolygon polygon;
-        for (const std::uint32_t i : id) polygon.push(vertices_.table.points()[i], i);
+        for (const std::uint32_t i : id) polygon.push(refined(camera_from_world_, *vertices_.p_world[i]), i);
         volume_.clip(polygon, codes);
         if (polygon.size < 3) return false;
         std::array<glm::dvec2, ClipPolygon::kCapacity> px;
         for (int i = 0; i < polygon.size; ++i) {
-            px[i] = map_.toScreen(polygon.p_eye[i]);
-            if (polygon.vertex[i] != kNone) continue;
+            if (polygon.vertex[i] != kNone) {
+                px[i] = vertices_.p_px[polygon.vertex[i]];
+                continue;
+            }
+            px[i] = map_.toScreen(polygon.eye[i].p);
             polygon.vertex[i] = kFirstMade + static_cast<std::uint32_t>(run.made.size());
-            run.made.push_back(polygon.p_eye[i]);
+            run.made.push_back(polygon.eye[i].p);
         }
         for (int i = 2; i < polygon.size; ++i)
             emitPiece({{px[0], px[i - 1], px[i]},
@@ -249,6 +261,7 @@ class Projector {
 
     const Scene& scene_;
     Progress& progress_;
+    glm::dmat4 camera_from_world_;
     ScreenMap map_;
     ClipVolume volume_;
     CoplanarGroups groups_;

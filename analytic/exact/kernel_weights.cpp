@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <functional>
+#include <stdexcept>
 
+#include "analytic/exact/clipped_area.h"
 #include "analytic/exact/gauss_legendre.h"
 #include "analytic/exact/separable_factor.h"
 
@@ -42,6 +44,8 @@ void add(Weight& sum, const Weight& part) {
 struct KernelWeights::Form {
     virtual ~Form() = default;
     virtual Weight of(const Edge& edge) const = 0;
+    virtual Weight piece(const Edge& edge, const Real& t1, const Real& t2) const = 0;
+    virtual Weight position(const Real& x, const Real& y) const = 0;
 };
 
 namespace {
@@ -69,6 +73,15 @@ class Fan : public KernelWeights::Form {
         if (ta < from) sum.value += angle(h, ta, from);
         if (to < tb) sum.value += angle(h, to, tb);
         return sum;
+    }
+
+    Weight piece(const Edge& e, const Real& t1, const Real& t2) const override {
+        const Real ex = e.bx - e.ax, ey = e.by - e.ay;
+        return e.cross == 0 ? Weight{} : inside(e.cross / sqrt(ex * ex + ey * ey), t1, t2);
+    }
+
+    Weight position(const Real& x, const Real& y) const override {
+        return {atan2(y, x) / (2 * pi<Real>()), kRounding};
     }
 
   private:
@@ -155,22 +168,31 @@ class Strip : public KernelWeights::Form {
         std::sort(cuts.begin(), cuts.end());
         Weight sum{0, factor_.error()};
         for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-            if (cuts[i] < cuts[i + 1]) add(sum, piece(e, cuts[i], cuts[i + 1]));
+            if (cuts[i] < cuts[i + 1]) add(sum, row(e, cuts[i], cuts[i + 1]));
         if (e.by < e.ay) sum.value = -sum.value;
         return sum;
     }
 
+    Weight piece(const Edge&, const Real&, const Real&) const override {
+        throw std::logic_error("KernelWeights::ofPiece: pieces are of radial kernels");
+    }
+
+    Weight position(const Real&, const Real& y) const override {
+        const Real at = std::clamp(y, Real(-factor_.radius()), factor_.radius());
+        return {factor_.mass(factor_.intervalOf(at), at), factor_.error()};
+    }
+
   private:
-    Weight piece(const Edge& e, const Real& y0, const Real& y1) const {
+    Weight row(const Edge& e, const Real& y0, const Real& y1) const {
         const Real R = factor_.radius(), middle = (y0 + y1) / 2, slope = (e.bx - e.ax) / (e.by - e.ay);
         const auto abscissa = [&](const Real& y) { return e.ax + slope * (y - e.ay); };
         const Real at = abscissa(middle);
-        const std::size_t row = factor_.intervalOf(middle);
+        const std::size_t band = factor_.intervalOf(middle);
         if (at <= -R) return {};
-        if (at >= R) return {factor_.mass(row, y1) - factor_.mass(row, y0), 10 * kRounding};
+        if (at >= R) return {factor_.mass(band, y1) - factor_.mass(band, y0), 10 * kRounding};
         const std::size_t column = factor_.intervalOf(at);
         return judgedIntegral(y0, y1, [&](const Real& y) {
-            return factor_.mass(column, abscissa(y)) * factor_.density(row, y);
+            return factor_.mass(column, abscissa(y)) * factor_.density(band, y);
         });
     }
 
@@ -188,38 +210,11 @@ void forEdges(const Face& face, const Visit& visit) {
         for (std::size_t i = 0; i < cycle.size(); ++i) visit(cycle[i], cycle[(i + 1) % cycle.size()]);
 }
 
-/// int clamp(x - left, 0, width) dy from a to b, y within [low, high].
-Rational clampedArea(Point a, Point b, const Rational& left, const Rational& width, const Rational& low,
-                     const Rational& high) {
-    const bool turned = b.y < a.y;
-    if (turned) std::swap(a, b);
-    if (a.y == b.y || b.y <= low || a.y >= high) return 0;
-    const Rational slope = (b.x - a.x) / (b.y - a.y);
-    const auto abscissa = [&](const Rational& y) { return Rational(a.x + slope * (y - a.y) - left); };
-    std::vector<Rational> cuts = {std::max(a.y, low), std::min(b.y, high)};
-    for (const Rational& x : {left, Rational(left + width)}) {
-        if (slope == 0) continue;
-        const Rational y = a.y + (x - a.x) / slope;
-        if (y > cuts[0] && y < cuts[1]) cuts.push_back(y);
-    }
-    std::sort(cuts.begin(), cuts.end());
-    Rational sum = 0;
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        const Rational x = abscissa((cuts[i] + cuts[i + 1]) / 2);
-        sum += (cuts[i + 1] - cuts[i]) * std::clamp(x, Rational(0), width);
-    }
-    return turned ? -sum : sum;
-}
-
 }  // namespace
 
 Rational boxWeight(const Face& face, const Point& sample, const Rational& radius) {
-    if (beyond(face, sample, radius)) return 0;
-    Rational sum = 0;
-    const Rational left = sample.x - radius, low = sample.y - radius, high = sample.y + radius;
-    forEdges(face,
-             [&](const Point& a, const Point& b) { sum += clampedArea(a, b, left, 2 * radius, low, high); });
-    return sum / (4 * radius * radius);
+    const Box support{{sample.x - radius, sample.y - radius}, {sample.x + radius, sample.y + radius}};
+    return areaWithin(face, support) / (4 * radius * radius);
 }
 
 KernelWeights::KernelWeights(const Prefilter& filter) : radius_(filter.radius) {
@@ -234,8 +229,21 @@ KernelWeights::~KernelWeights() = default;
 Weight KernelWeights::of(const Face& face, const Point& sample) const {
     Weight sum;
     if (beyond(face, sample, radius_)) return sum;
-    forEdges(face, [&](const Point& a, const Point& b) { add(sum, form_->of(edgeOf(a, b, sample))); });
+    forEdges(face, [&](const Point& a, const Point& b) { add(sum, ofEdge(a, b, sample)); });
     return sum;
+}
+
+Weight KernelWeights::ofEdge(const Point& a, const Point& b, const Point& sample) const {
+    return form_->of(edgeOf(a, b, sample));
+}
+
+Weight KernelWeights::ofPiece(const Point& a, const Point& b, const Point& sample, const Real& t1,
+                              const Real& t2) const {
+    return form_->piece(edgeOf(a, b, sample), t1, t2);
+}
+
+Weight KernelWeights::position(const Point& p, const Point& sample) const {
+    return form_->position(Real(Rational(p.x - sample.x)), Real(Rational(p.y - sample.y)));
 }
 
 }  // namespace edgewise::exact

@@ -25,6 +25,18 @@ class KernelWeights {
 
     Weight of(const Face& face, const Point& sample) const;
 
+    /// What the directed edge a -> b adds to the weight of a face on the side of growing angle: the whole fan
+    /// (the angles of what lies outside the disk included), the whole strip (with what lies right of the
+    /// square).
+    Weight ofEdge(const Point& a, const Point& b, const Point& sample) const;
+    /// Radial kernels: the integral of h g dt over [t1, t2] px of the edge's line, from the sample's foot
+    /// point.
+    Weight ofPiece(const Point& a, const Point& b, const Point& sample, const Real& t1, const Real& t2) const;
+    /// Where a point stands along the border: radial, its angle in turns, (-1/2, 1/2]; separable, K(y).
+    Weight position(const Point& p, const Point& sample) const;
+
+    const Rational& radius() const { return radius_; }
+
     struct Form;  ///< how one directed edge counts
 
   private:

@@ -9,6 +9,7 @@ namespace {
 
 using boost::math::constants::pi;
 constexpr int kDegree = 63;
+const Real kTrimmed("1e-46");  // of a density that is about 1 somewhere, before it is normalised
 
 Real sinc(const Real& t) {
     const Real a = pi<Real>() * t;
@@ -82,6 +83,12 @@ std::vector<Real> integrated(const std::vector<Real>& series, const Real& length
     return out;
 }
 
+/// Without the last coefficients as long as they come to less than `below`: a polynomial's are roundings.
+void trim(std::vector<Real>& series, const Real& below) {
+    Real dropped = abs(series.back());
+    for (; series.size() > 1 && dropped < below; dropped += abs(series.back())) series.pop_back();
+}
+
 Real clenshaw(const std::vector<Real>& series, const Real& t) {
     Real next = 0, after = 0;
     for (std::size_t j = series.size() - 1; j > 0; --j) {
@@ -103,6 +110,7 @@ SeparableFactor::SeparableFactor(const Prefilter& filter) : radius_(filter.radiu
         Series s{chebyshev(shape, knots_[i], knots_[i + 1]), {}, whole};
         for (std::size_t j = kDegree - 3; j <= kDegree; ++j)
             left_out = std::max(left_out, Real(abs(s.density[j])));
+        trim(s.density, kTrimmed);
         s.mass = integrated(s.density, knots_[i + 1] - knots_[i]);
         series_.push_back(s);
         whole += clenshaw(s.mass, 1);
@@ -112,7 +120,7 @@ SeparableFactor::SeparableFactor(const Prefilter& filter) : radius_(filter.radiu
         for (Real& c : s.density) c /= whole;
         for (Real& c : s.mass) c /= whole;
     }
-    error_ = (left_out * 8 + Real("1e-47")) * 2 * radius_ / abs(whole);
+    error_ = (left_out * 8 + kTrimmed + Real("1e-47")) * 2 * radius_ / abs(whole);
 }
 
 Real SeparableFactor::evaluate(const std::vector<Real>& series, std::size_t i, const Real& x) const {

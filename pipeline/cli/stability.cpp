@@ -12,6 +12,7 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/error.h"
+#include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_report.h"
 #include "pipeline/progress_bar.h"
 
@@ -42,13 +43,43 @@ judge::StabilityOptions readOptions(const StabilityArguments& arguments) {
     return options;
 }
 
+std::string caseNames() {
+    std::string out;
+    for (const judge::StabilityCase& one : judge::stabilityCases())
+        out += (out.empty() ? "" : ", ") + one.name;
+    return out;
+}
+
+/// The folder of the results; one that this run made and left empty goes away with it.
+class ResultFolder {
+  public:
+    explicit ResultFolder(const std::string& name) : path_(name) {
+        std::error_code error;
+        made_ = std::filesystem::create_directories(path_, error);
+        if (!std::filesystem::is_directory(path_, error))
+            throw InputError("-o", fmt::format("{} is not a folder and cannot be made one", name));
+        // Said before the work, not after it.
+        if (access(path_.c_str(), W_OK | X_OK) != 0)
+            throw InputError("-o", fmt::format("{} may not be written to", name));
+    }
+    ~ResultFolder() {
+        std::error_code error;
+        if (made_) std::filesystem::remove(path_, error);  // fails where something is in it, as it should
+    }
+    ResultFolder(const ResultFolder&) = delete;
+    ResultFolder& operator=(const ResultFolder&) = delete;
+
+    std::filesystem::path operator/(const char* file) const { return path_ / file; }
+
+  private:
+    std::filesystem::path path_;
+    bool made_ = false;
+};
+
 void stability(const StabilityArguments& arguments) {
     const judge::StabilityOptions options = readOptions(arguments);
-    const std::filesystem::path folder = arguments.folder;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder, error))
-        throw InputError("-o", fmt::format("{} is not a folder and cannot be made one", arguments.folder));
+    judge::checkCases(options);
+    const ResultFolder folder(arguments.folder);
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     const auto rows = judge::runStability(options, progress);
     writeAtomically(folder / "results.json", judge::stabilityJson(rows, arguments.command_line));
@@ -71,7 +102,7 @@ void addStability(CLI::App& program, const std::string& command_line) {
     command->add_option("--filter", arguments->filters, "repeated [box, cone, gaussian, mitchell]")
         ->type_name("F")
         ->allow_extra_args(false);
-    command->add_option("--case", arguments->cases, "repeated [all]")
+    command->add_option("--case", arguments->cases, "repeated [all]: " + caseNames())
         ->type_name("NAME")
         ->allow_extra_args(false);
     command->add_option("--scenes", arguments->scenes, "random scenes a difficulty")

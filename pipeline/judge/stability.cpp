@@ -100,21 +100,29 @@ void judge(const Product& product, const Truth& truth, StabilityRow& row) {
                  std::abs(std::ldexp(double(product.sum - (FixedWeight{1} << kWeightBits)), -60)));
     row.label_conflicts += product.conflicts;
     row.exact_depths += product.counts.exact_depth;
+    row.fine_orders += product.counts.fine_orders;
     row.closings += product.counts.closings;
     row.seconds += product.seconds;
     row.oracle_error = std::max(row.oracle_error, static_cast<double>(truth.error));
     ++row.scenes;
 }
 
+std::optional<Prefilter> filterOf(const StabilityCase& one, const Prefilter& filter, double difficulty) {
+    return one.filter ? one.filter(difficulty, filter) : filter;
+}
+
 StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double difficulty, int scenes,
                     Progress& progress) {
     StabilityRow row;
     row.case_name = one.name, row.filter = filter.name, row.condition = difficulty;
-    const Prefilter used = one.filter ? one.filter(difficulty, filter) : filter;
+    const Prefilter used = filterOf(one, filter, difficulty).value();
     for (int seed = 1; seed <= scenes; ++seed) {
         if (progress.cancelled()) throw Interrupted();
         const StiffScene stiff = one.make(difficulty, used, static_cast<std::uint64_t>(seed));
         judge(runProduct(stiff, used), runOracle(stiff, used), row);
+        if (!stiff.projection) continue;
+        if (!row.projection) row.projection.emplace();
+        row.projection->add(*stiff.projection);
     }
     row.seconds /= scenes;
     return row;
@@ -139,6 +147,10 @@ double promisedBound(std::uint64_t terms) {
     return static_cast<double>(terms) * (10.0 * 0x1p-53 + 0x1p-61) + 0x1p-61;
 }
 
+void checkCases(const StabilityOptions& options) {
+    chosenCases(options.cases);
+}
+
 std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress) {
     struct Task {
         const StabilityCase* one;
@@ -150,7 +162,8 @@ std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress
         for (const Prefilter& filter : options.filters)
             for (std::size_t i = 0; i < one->difficulties.size();
                  i += static_cast<std::size_t>(options.every))
-                tasks.push_back({one, &filter, one->difficulties[i]});
+                if (filterOf(*one, filter, one->difficulties[i]))
+                    tasks.push_back({one, &filter, one->difficulties[i]});
     std::vector<StabilityRow> rows(tasks.size());
     progress.stage("stability", tasks.size());
     // CGAL's lazy numbers share nodes between threads without a lock: one thread.

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analytic/prefilter.h"
+#include "pipeline/judge/projection_witness.h"
 #include "pipeline/progress.h"
 
 namespace edgewise::judge {
@@ -25,9 +27,11 @@ struct StabilityRow {
     double partition_defect = 0.0;     ///< |sum of weights - 1|, in the fixed point
     std::uint64_t label_conflicts = 0;
     std::uint64_t exact_depths = 0;  ///< depth comparisons that the filter left to exact arithmetic
+    std::uint64_t fine_orders = 0;   ///< orders of two lines that doubles left to their canonical points
     std::uint64_t closings = 0;      ///< pieces that close what rounded planes left open
     double seconds = 0.0;            ///< the product's, a pixel
     double oracle_error = 0.0;       ///< the oracle's own estimate
+    std::optional<ProjectionErrors> projection;  ///< of cases that a camera sees: all scenes together
 };
 
 /// A weight that n terms make errs by at most n (10 u + 2^-61) + 2^-61, u = 2^-53: ten roundings of a term
@@ -40,6 +44,9 @@ struct StabilityOptions {
     int every = 1;                   ///< of a case's difficulties only each so-manieth is run
     std::vector<std::string> cases;  ///< names; empty: all
 };
+
+/// Throws InputError for an unknown case.
+void checkCases(const StabilityOptions& options);
 
 /// Rows by case, filter, difficulty. Throws InputError for an unknown case, Interrupted when cancelled.
 std::vector<StabilityRow> runStability(const StabilityOptions& options, Progress& progress);

@@ -1,53 +1,18 @@
 #include "pipeline/judge/stability_cases.h"
 
 #include <cmath>
-#include <numbers>
-#include <random>
+#include <stdexcept>
 
+#include "pipeline/judge/camera_cases.h"
+#include "pipeline/judge/case_tools.h"
+#include "pipeline/judge/grid_line.h"
 #include "pipeline/judge/stiff_scene.h"
 
 namespace edgewise::judge {
 namespace {
 
-using glm::dvec2;
-using glm::dvec3;
-constexpr glm::ivec2 kPixel{37, 21};
-constexpr double kPi = std::numbers::pi;
-
-/// Random numbers that are the same on every machine.
-class Random {
-  public:
-    Random(std::uint64_t seed, double difficulty)
-        : engine_(seed * 0x9e3779b97f4a7c15ull + std::uint64_t(1e6 * std::log10(difficulty) + 5e8)) {}
-    double within(double low, double high) {
-        return low + (high - low) * (double(engine_() >> 11) * 0x1p-53);
-    }
-    double angle() { return within(0.0, 2.0 * kPi); }
-    dvec2 around(double reach) { return {within(-reach, reach), within(-reach, reach)}; }
-
-  private:
-    std::mt19937_64 engine_;
-};
-
-dvec2 sampleOf(glm::ivec2 pixel) {
-    return dvec2(pixel) + 0.5;
-}
-dvec2 direction(double angle) {
-    return {std::cos(angle), std::sin(angle)};
-}
-dvec2 across(dvec2 v) {
-    return {-v.y, v.x};
-}
-
-/// 10^from, 10^(from - step), ... 10^to.
-std::vector<double> decades(int from, int to, int step = 1) {
-    std::vector<double> out;
-    for (int e = from; e >= to; e -= step) out.push_back(std::pow(10.0, e));
-    return out;
-}
-
 StiffScene finish(const StiffSceneBuilder& builder) {
-    return {builder.scene(), kPixel};
+    return {builder.scene(), kPixel, {}};
 }
 
 /// A quad of one plane around a segment, half a width to either side.
@@ -99,14 +64,59 @@ StiffScene sized(double size, const Prefilter& filter, std::uint64_t seed) {
     return finish(builder);
 }
 
-/// An edge whose distance from the sample is the difficulty.
+/// A direction of the grid whose lines pass points at multiples of 2^-66 px or so.
+GridDirection gridDirection(Random& random) {
+    const auto m = static_cast<std::int64_t>(random.within(0x1p16, 0x1p17));
+    return pythagorean(m, static_cast<std::int64_t>(random.within(0.05, 0.95) * double(m)));
+}
+
+/// One of the eight directions that a mirror or two make of one: all ways round.
+std::array<dvec2, 2> mirrored(std::array<dvec2, 2> ends, std::uint64_t which) {
+    for (dvec2& p : ends) {
+        if (which & 1) p.x = -p.x;
+        if (which & 2) p.y = -p.y;
+        if (which & 4) std::swap(p.x, p.y);
+    }
+    return ends;
+}
+
+/// Two triangles that share an edge on a line of the grid, c / h grid steps from the sample.
+void addAtOffset(StiffSceneBuilder& builder, const GridDirection& d, WideSteps c, double reach,
+                 std::uint64_t seed) {
+    auto ends = mirrored(lineAtOffset(d, c, reach), seed);
+    for (dvec2& p : ends) p += sampleOf(kPixel);
+    const dvec2 side = across(ends[1] - ends[0]), middle = 0.5 * (ends[0] + ends[1]);
+    builder.add({dvec3(ends[0], 0), dvec3(ends[1], 0), dvec3(middle + side, 0)});
+    builder.add({dvec3(ends[0], 1), dvec3(ends[1], 1), dvec3(middle - side, 1)});
+}
+
+WideSteps stepsOf(double px, const GridDirection& d) {
+    return static_cast<WideSteps>(std::nearbyint(px / kGridPx * double(d.h)));
+}
+
+/// An edge whose distance from the sample is the difficulty, to 2^-66 px.
 StiffScene edgeBeside(double distance, const Prefilter& filter, std::uint64_t seed) {
     Random random(seed, distance);
     StiffSceneBuilder builder(sampleOf(kPixel));
-    const dvec2 d = direction(random.angle()), foot = sampleOf(kPixel) + across(d) * distance;
-    const double length = filter.radius * random.within(1.5, 4.0), beyond = random.within(0.2, 0.8) * length;
-    builder.add({dvec3(foot - beyond * d, 0), dvec3(foot + (length - beyond) * d, 0),
-                 dvec3(foot + length * across(d), 0)});
+    const GridDirection d = gridDirection(random);
+    addAtOffset(builder, d, stepsOf(distance, d), filter.radius * random.within(0.2, 2.0), seed);
+    return finish(builder);
+}
+
+/// An edge exactly through the sample, as long as the difficulty; shorter than a step along its line, it runs
+/// parallel to an axis or at 45 degrees.
+StiffScene edgeThrough(double length, const Prefilter&, std::uint64_t seed) {
+    Random random(seed, length);
+    StiffSceneBuilder builder(sampleOf(kPixel));
+    const GridDirection d = gridDirection(random);
+    if (length > double(d.h) * kGridPx) {
+        addAtOffset(builder, d, 0, 0.5 * length, seed);
+    } else {
+        const double turn = 0.25 * kPi * double(seed % 8), half = std::max(kGridPx, 0.5 * length);
+        const dvec2 way = glm::round(direction(turn)) * half, s = sampleOf(kPixel);
+        builder.add({dvec3(s - way, 0), dvec3(s + way, 0), dvec3(s + 3.0 * across(way), 0)});
+        builder.add({dvec3(s - way, 1), dvec3(s + way, 1), dvec3(s - 3.0 * across(way), 1)});
+    }
     return finish(builder);
 }
 
@@ -114,15 +124,19 @@ StiffScene edgeBeside(double distance, const Prefilter& filter, std::uint64_t se
 StiffScene tangent(double gap, const Prefilter& filter, std::uint64_t seed) {
     Random random(seed, gap);
     StiffSceneBuilder builder(sampleOf(kPixel));
-    const double turn = filter.radial() ? random.angle() : 0.5 * kPi * double(seed % 4);
-    const dvec2 d = direction(turn);
-    const double h = filter.radius + (seed % 2 ? gap : -gap);
-    const dvec2 foot = sampleOf(kPixel) + across(d) * h;
-    const double length = 3.0 * filter.radius;
-    builder.add(
-        {dvec3(foot - length * d, 0), dvec3(foot + length * d, 0), dvec3(foot + length * across(d), 0)});
-    builder.add(
-        {dvec3(foot - length * d, 1), dvec3(foot + length * d, 1), dvec3(foot - length * across(d), 1)});
+    const GridDirection d = filter.radial() ? gridDirection(random) : GridDirection{};
+    const WideSteps c = stepsOf(filter.radius, d), off = stepsOf(gap, d);
+    addAtOffset(builder, d, seed % 2 ? c + off : c - off, 3.0 * filter.radius, seed / 2);
+    return finish(builder);
+}
+
+/// An edge that touches the support's border exactly, as long as the difficulty.
+StiffScene touching(double length, const Prefilter& filter, std::uint64_t seed) {
+    Random random(seed, length);
+    StiffSceneBuilder builder(sampleOf(kPixel));
+    const bool along_axis = !filter.radial() || length < 8.0;
+    const GridDirection d = along_axis ? GridDirection{} : gridDirection(random);
+    addAtOffset(builder, d, stepsOf(filter.radius, d), std::max(kGridPx, 0.5 * length), seed);
     return finish(builder);
 }
 
@@ -169,6 +183,23 @@ StiffScene nearCoincident(double apart, const Prefilter& filter, std::uint64_t s
         builder.add({at + size * direction(turn), at + size * direction(turn + 2.0),
                      at + size * direction(turn + 4.0)},
                     plane);
+    }
+    return finish(builder);
+}
+
+/// As many triangles in one plane as the difficulty says, over each other, some twice: all depths are tied.
+StiffScene coincident(double layers, const Prefilter& filter, std::uint64_t seed) {
+    Random random(seed, layers);
+    StiffSceneBuilder builder(sampleOf(kPixel));
+    const DepthPlane plane{random.within(-.1, .1), random.within(-.1, .1), 0.5};
+    std::array<dvec2, 3> corners{};
+    for (int k = 0; k < static_cast<int>(layers); ++k) {
+        const double turn = random.angle(), size = filter.radius * random.within(0.5, 2.0);
+        const dvec2 at = sampleOf(kPixel) + random.around(0.7 * filter.radius);
+        if (k % 3 != 2)
+            for (int c = 0; c < 3; ++c)
+                corners[static_cast<std::size_t>(c)] = at + size * direction(turn + 2.0 * c);
+        builder.add(corners, plane);  // the third is the second, again
     }
     return finish(builder);
 }
@@ -236,13 +267,29 @@ StiffScene tJunctions(double angle, const Prefilter& filter, std::uint64_t seed)
     return finish(builder);
 }
 
+/// A long edge on which two triangles of the other side meet, their stem at the angle of the difficulty; the
+/// vertex is rounded beside the edge.
+StiffScene tStem(double angle, const Prefilter& filter, std::uint64_t seed) {
+    Random random(seed, angle);
+    StiffSceneBuilder builder(sampleOf(kPixel));
+    const double turn = random.angle(), length = 3.0 * filter.radius;
+    const dvec2 bar = direction(turn), stem = direction(turn + (seed % 2 ? angle : kPi - angle));
+    const dvec2 at = sampleOf(kPixel) + random.around(0.3 * filter.radius);
+    const dvec2 a = at - length * bar, b = at + length * bar, end = at + length * stem;
+    const DepthPlane plane{random.within(-.1, .1), random.within(-.1, .1), 0.5};
+    builder.add({a, b, at - length * across(bar)}, plane);
+    builder.add({a, at, end}, plane);
+    builder.add({at, b, end}, plane);
+    return finish(builder);
+}
+
 /// The same random triangles as far from the origin as the difficulty says.
 StiffScene farAway(double distance, const Prefilter& filter, std::uint64_t seed) {
     Random random(seed, 1.0);  // the same scene at every distance, but for the grid
     const glm::ivec2 pixel(static_cast<int>(distance), static_cast<int>(0.7 * distance));
     StiffSceneBuilder builder(sampleOf(pixel));
     addTriangles(builder, random, pixel, filter.radius, 0.5, 2.0);
-    return {builder.scene(), pixel};
+    return {builder.scene(), pixel, {}};
 }
 
 /// Triangles of the support's own size, for filters of every size.
@@ -253,44 +300,75 @@ StiffScene ordinary(double difficulty, const Prefilter& filter, std::uint64_t se
     return finish(builder);
 }
 
-Prefilter resized(double radius, const Prefilter& filter) {
-    return makePrefilter(filter.name, radius, filter.sigma ? std::optional(radius / 3.0) : std::nullopt);
+/// None where the family has no such filter: lanczos grows lobes with its radius, up to a limit.
+std::optional<Prefilter> made(const Prefilter& filter, double radius, std::optional<double> sigma) {
+    try {
+        return makePrefilter(filter.name, radius, sigma);
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
 }
 
-/// Gaussians alone have a sigma; other filters stay as they are.
-Prefilter sharpened(double ratio, const Prefilter& filter) {
-    if (!filter.sigma) return filter;
-    return makePrefilter(filter.name, filter.radius, filter.radius * ratio);
+std::optional<Prefilter> resized(double radius, const Prefilter& filter) {
+    return made(filter, radius, filter.sigma ? std::optional(radius / 3.0) : std::nullopt);
 }
 
-std::vector<double> upwards(std::vector<double> list) {
-    return {list.rbegin(), list.rend()};
+/// Gaussians alone have a sigma.
+std::optional<Prefilter> sharpened(double ratio, const Prefilter& filter) {
+    if (!filter.sigma) return std::nullopt;
+    return made(filter, filter.radius, filter.radius * ratio);
 }
 
-}  // namespace
+/// Small angles, then the whole turn in steps of 15 degrees and some that no degree names.
+std::vector<double> everyAngle(double most) {
+    std::vector<double> out = upwards(decades(-1, -15));
+    for (double a = kPi / 12; a < most; a += kPi / 12) out.insert(out.end(), {a - 0.07, a});
+    out.push_back(most);
+    return out;
+}
 
-const std::vector<StabilityCase>& stabilityCases() {
-    static const std::vector<StabilityCase> cases{
+std::vector<StabilityCase> screenCases() {
+    return {
         {"slivers", "triangles that grow thin", "angle, radians", decades(-1, -15), sliver},
         {"sizes", "triangles from far below the grid's step to the guard band", "size, px",
          upwards(decades(5, -8)), sized},
+        {"edge-through-sample", "an edge exactly through the sample", "length, px", upwards(decades(3, -9)),
+         edgeThrough},
         {"edge-beside-sample", "an edge that passes the sample", "distance, px", decades(-1, -15),
          edgeBeside},
         {"tangent", "an edge that touches the support's border", "gap, px", decades(-1, -15), tangent},
+        {"touching", "an edge that touches the support's border exactly", "length, px",
+         upwards(decades(3, -9)), touching},
         {"vertex-near-sample", "a vertex beside the sample", "distance, px", decades(-1, -15), vertexNear},
         {"near-parallel", "edges that cross at small angles", "angle, radians", decades(-1, -15),
          nearParallel},
         {"near-coincident", "planes that hardly differ", "difference of depth and tilt", decades(-1, -16),
          nearCoincident},
+        {"coincident", "layers in one plane, every depth tied", "layers", {2, 4, 8, 16, 32}, coincident},
         {"depth-ratio", "depths of many orders of magnitude", "ratio", upwards(decades(12, 1)), depthRatio},
         {"stack", "layers over each other, all piercing", "layers", {10, 30, 100, 300, 1000}, stack},
         {"star", "edges through one point", "edges", {10, 30, 100, 300, 1000}, star},
-        {"t-junctions", "courses of bricks, turned", "angle, radians", decades(0, -10), tJunctions},
-        {"far-away", "coordinates far from the origin", "distance, px", upwards(decades(5, 0)), farAway},
+        {"t-junctions", "courses of bricks, turned", "angle, radians", everyAngle(kPi), tJunctions},
+        {"t-stem", "a vertex on a long edge", "angle of the stem, radians", everyAngle(0.5 * kPi), tStem},
+        {"far-away",
+         "coordinates far from the origin",
+         "distance, px",
+         {1, 10, 100, 1e3, 1e4, 1e5, 5e5},
+         farAway},
         {"radius", "filters of every size", "R, px", upwards(decades(3, -3)), ordinary, resized},
         {"sigma", "Gaussians within a support that they hardly fill, or overfill", "sigma / R",
          upwards(decades(2, -2)), ordinary, sharpened},
     };
+}
+
+}  // namespace
+
+const std::vector<StabilityCase>& stabilityCases() {
+    static const std::vector<StabilityCase> cases = [] {
+        std::vector<StabilityCase> list = screenCases(), camera = cameraCases();
+        list.insert(list.end(), camera.begin(), camera.end());
+        return list;
+    }();
     return cases;
 }
 

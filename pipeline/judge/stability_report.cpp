@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/judge/stability_cases.h"
+#include "pipeline/judge/stability_plot.h"
 #include "pipeline/version.h"
 
 namespace edgewise::judge {
@@ -15,6 +17,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<StabilityRow>;
+
+/// Null for rows whose scenes no camera made.
+Json projectionJson(const std::optional<ProjectionErrors>& p) {
+    if (!p) return nullptr;
+    return {{"max_px", p->max_px},
+            {"bound_px", p->bound_px},
+            {"worst_of_bound", p->worst_of_bound},
+            {"vertices", p->vertices},
+            {"made", p->made},
+            {"undecided", p->undecided},
+            {"shared_edges", p->shared_edges},
+            {"cracks", p->cracks},
+            {"lost_areas", p->lost_areas}};
+}
 
 Json rowJson(const StabilityRow& r) {
     return {{"case", r.case_name},
@@ -31,134 +47,183 @@ Json rowJson(const StabilityRow& r) {
             {"partition_defect", r.partition_defect},
             {"label_conflicts", r.label_conflicts},
             {"exact_depths", r.exact_depths},
+            {"fine_orders", r.fine_orders},
             {"closings", r.closings},
             {"seconds", r.seconds},
-            {"oracle_error", r.oracle_error}};
+            {"oracle_error", r.oracle_error},
+            {"projection", projectionJson(r.projection)}};
 }
 
-/// What a plot's axis spans, in decades.
-struct Axis {
-    double low, high;
-    double at(double value) const { return (std::log10(value) - low) / (high - low); }
-};
+constexpr std::array kColors{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a",
+                             "#17909c", "#d1498b", "#7a9a01", "#8b5a2b", "#5f7fd1", "#e07b39"};
 
-Axis axisOver(const std::vector<double>& values) {
-    const auto [low, high] = std::ranges::minmax(values);
-    const double from = std::floor(std::log10(low)), to = std::ceil(std::log10(high));
-    return {from, std::max(to, from + 1)};
+/// Every filter has one colour on the whole page.
+std::map<std::string, std::string> colorsOf(const Rows& rows) {
+    std::map<std::string, std::string> out;
+    for (const StabilityRow& row : rows) out.try_emplace(row.filter, "");
+    std::size_t next = 0;
+    for (auto& [filter, color] : out) color = kColors[next++ % kColors.size()];
+    return out;
 }
 
-/// One case: points and lines in a box of kWidth x kHeight with decades marked.
-class Plot {
-  public:
-    Plot(const StabilityCase& one, const Rows& rows)
-        : case_(one), rows_(rows), x_(axisOver(one.difficulties)) {}
+enum class Judged { kWeights, kVertices };
 
-    std::string svg() const {
-        std::string out = fmt::format("<figure><svg viewBox='0 0 {} {}' role='img' aria-label='{}'>\n",
-                                      kWidth + kLeft + 12, kHeight + kTop + 40, case_.name);
-        out += frame();
-        std::size_t color = 0;
-        for (const auto& [filter, rows] : byFilter()) out += series(rows, kColors[color++ % kColors.size()]);
-        out += fmt::format("</svg><figcaption><b>{}</b>: {}</figcaption></figure>\n", case_.name, case_.what);
-        return out;
+std::vector<PlotSeries> seriesOf(const Rows& rows, const std::string& case_name, Judged judged) {
+    std::map<std::string, PlotSeries> by_filter;
+    const auto colors = colorsOf(rows);
+    for (const StabilityRow& r : rows) {
+        if (r.case_name != case_name || (judged == Judged::kVertices && !r.projection)) continue;
+        PlotSeries& one = by_filter[r.filter];
+        one.name = r.filter, one.color = colors.at(r.filter);
+        if (judged == Judged::kWeights)
+            one.points.push_back({r.condition, r.max_error, r.bound});
+        else
+            one.points.push_back({r.condition, r.projection->max_px, r.projection->bound_px});
     }
-
-    static constexpr std::array kColors{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a"};
-
-    std::map<std::string, std::vector<const StabilityRow*>> byFilter() const {
-        std::map<std::string, std::vector<const StabilityRow*>> out;
-        for (const StabilityRow& row : rows_)
-            if (row.case_name == case_.name) out[row.filter].push_back(&row);
-        return out;
+    std::vector<PlotSeries> out;
+    for (auto& [filter, one] : by_filter) {
+        std::ranges::sort(one.points, {}, &PlotPoint::x);
+        out.push_back(std::move(one));
     }
+    return out;
+}
 
-  private:
-    static constexpr double kWidth = 300, kHeight = 190, kLeft = 46, kTop = 10;
-    static constexpr Axis kError{-19, -9};
+/// The same decades for every plot of weights, so that eyes can compare.
+PlotAxis weightAxis(const Rows& rows) {
+    PlotAxis all{-18, -12};
+    for (const StabilityRow& r : rows)
+        for (const double v : {r.max_error, r.bound})
+            if (v > 0.0) all.high = std::max(all.high, static_cast<int>(std::ceil(std::log10(v))));
+    return all;
+}
 
-    /// What is 0 lies on the floor of the plot.
-    static double floored(double error) { return std::clamp(error, 1e-19, 1e-9); }
-    double px(double condition) const { return kLeft + kWidth * x_.at(condition); }
-    static double py(double error) { return kTop + kHeight * (1 - kError.at(floored(error))); }
-
-    std::string frame() const {
-        std::string out = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='frame'/>", kLeft,
-                                      kTop, kWidth, kHeight);
-        for (double e = kError.low; e <= kError.high; e += 2)
-            out +=
-                fmt::format("<text x='{}' y='{}' class='y'>1e{:.0f}</text><path d='M{} {}h{}' class='grid'/>",
-                            kLeft - 4, py(std::pow(10, e)) + 3, e, kLeft, py(std::pow(10, e)), kWidth);
-        const double step = std::max(1.0, std::ceil((x_.high - x_.low) / 6));
-        for (double e = x_.low; e <= x_.high; e += step)
-            out += fmt::format("<text x='{}' y='{}' class='x'>1e{:.0f}</text>", px(std::pow(10, e)),
-                               kTop + kHeight + 13, e);
-        return out + fmt::format("<text x='{}' y='{}' class='x'>{}</text>\n", kLeft + kWidth / 2,
-                                 kTop + kHeight + 28, case_.condition);
-    }
-
-    std::string series(const std::vector<const StabilityRow*>& rows, const char* color) const {
-        std::string line, bound, dots;
-        for (const StabilityRow* r : rows) {
-            const char* command = line.empty() ? "M" : "L";
-            line += fmt::format("{}{:.1f} {:.1f}", command, px(r->condition), py(r->max_error));
-            bound += fmt::format("{}{:.1f} {:.1f}", command, px(r->condition), py(r->bound));
-            dots += fmt::format(
-                "<circle cx='{:.1f}' cy='{:.1f}' r='2.4'><title>{} at {:.3g}: {:.3g}</title></circle>",
-                px(r->condition), py(r->max_error), r->filter, r->condition, r->max_error);
-        }
-        return fmt::format(
-            "<g fill='{0}' stroke='{0}'><path d='{1}' fill='none'/><path d='{2}' class='bound'/>{3}</g>\n",
-            color, line, bound, dots);
-    }
-
-    const StabilityCase& case_;
-    const Rows& rows_;
-    Axis x_;
-};
+std::string figureHtml(const StabilityCase& one, const Rows& rows, Judged judged) {
+    const auto series = seriesOf(rows, one.name, judged);
+    if (series.empty()) return "";
+    const bool weights = judged == Judged::kWeights;
+    const PlotFrame frame{one.condition,
+                          weights ? "largest error of a weight" : "largest error of a vertex, px",
+                          one.name + ": error against " + one.condition, xAxisOf(series),
+                          weights ? weightAxis(rows) : errorAxisOf(series)};
+    double of_bound = 0.0;
+    for (const StabilityRow& r : rows)
+        if (r.case_name == one.name)
+            of_bound = std::max(of_bound, weights ? r.worst_of_bound : r.projection->worst_of_bound);
+    return fmt::format(
+        "<figure><figcaption><b>{}{}</b><span class='{}'>{:.2g} of the bound</span><br>{}"
+        "</figcaption>{}</figure>\n",
+        escapedHtml(one.name), weights ? "" : ", projection", of_bound <= 1.0 ? "good" : "bad", of_bound,
+        escapedHtml(one.what), plotSvg(frame, series));
+}
 
 const char* const kStyle =
-    "body{font:14px/1.4 system-ui,sans-serif;margin:24px;max-width:1200px}"
-    "figure{display:inline-block;width:370px;margin:0 10px 18px 0;vertical-align:top}svg{width:100%}"
-    ".frame{fill:none;stroke:#888}.grid{stroke:#e4e4e4}.y{font-size:9px;text-anchor:end}.x{font-size:9px;"
-    "text-anchor:middle}"
-    ".bound{fill:none;stroke-dasharray:4 3;opacity:.6}table{border-collapse:collapse;font-size:12px}"
-    "td,th{padding:2px 8px;border-bottom:1px solid "
-    "#ddd;text-align:right}td:first-child,th:first-child{text-align:left}";
+    "body{font:15px/1.45 system-ui,sans-serif;color:#222;margin:0;background:#f6f6f4}"
+    "main{max-width:1280px;margin:0 auto;padding:24px}h1{margin:0 0 4px}h2{margin:28px 0 8px;font-size:19px}"
+    "code{background:#ececea;padding:1px 5px;border-radius:3px;font-size:13px;overflow-wrap:anywhere}"
+    ".figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(370px,1fr));gap:14px}"
+    "figure{margin:0;background:#fff;border:1px solid #ddd;border-radius:6px;padding:10px 12px}"
+    "figcaption{font-size:13px;min-height:3.9em}figcaption span{float:right;font-size:12px}"
+    ".good{color:#2c6e3f}.bad{color:#b3261e;font-weight:bold}svg{width:100%;display:block}"
+    "svg text{font-size:10px;fill:#444}svg .title{font-size:11px;fill:#222}"
+    ".frame{fill:none;stroke:#777}.grid{stroke:#ddd}.fine{stroke:#f0f0f0}"
+    ".line{fill:none;stroke-width:1.4}.bound{fill:none;stroke-dasharray:5 3;opacity:.65}"
+    ".zero{fill:#fff;stroke-width:1.2}"
+    ".legend{position:sticky;top:0;background:#f6f6f4ee;padding:8px 0;display:flex;flex-wrap:wrap;gap:4px "
+    "16px}"
+    ".legend span{white-space:nowrap}"
+    "i{display:inline-block;width:18px;height:4px;border-radius:2px;margin-right:6px;vertical-align:middle}"
+    ".scroll{overflow-x:auto;background:#fff;border:1px solid #ddd;border-radius:6px;padding:6px}"
+    "table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}"
+    "td,th{padding:3px 9px;border-bottom:1px solid #e5e5e5;text-align:right;white-space:nowrap}"
+    "th{white-space:normal;vertical-align:bottom;line-height:1.2}td:first-child,th:first-child,td:nth-child("
+    "2),th:nth-child(2){text-align:left}"
+    "summary{cursor:pointer;margin:14px 0 8px}";
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
+bool keepsPromises(const StabilityRow& r) {
+    const bool placed = !r.projection || (r.projection->worst_of_bound <= 1.0 && r.projection->cracks == 0 &&
+                                          r.projection->lost_areas == 0);
+    return placed && r.worst_of_bound <= 1.0 && r.ownership_errors == 0 && r.partition_defect == 0.0 &&
+           r.label_conflicts == 0;
+}
+
+std::string projectionCells(const std::optional<ProjectionErrors>& p) {
+    if (!p) return "<td></td><td></td><td></td>";
+    return fmt::format("<td>{:.2e}</td><td>{:.2f}</td><td>{}</td>", p->max_px, p->worst_of_bound, p->cracks);
 }
 
 std::string tableHtml(const Rows& rows) {
     std::string out =
-        "<table><tr><th>case</th><th>filter</th><th>condition</th><th>max error</th><th>ulp</th><th>of its "
+        "<div class='scroll'><table><tr><th>case</th><th>filter</th><th>condition</th><th>max "
+        "error</th><th>ulp</th><th>of its "
         "bound</th><th>ownership errors</th><th>partition defect</th><th>label conflicts</th><th>exact "
         "depths</th>"
-        "<th>closings</th><th>&micro;s</th></tr>\n";
+        "<th>fine orders</th><th>closings</th><th>&micro;s</th><th>vertex, px</th><th>of its "
+        "bound</th><th>cracks</th></tr>\n";
     for (const StabilityRow& r : rows)
         out += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2e}</td><td>{:.3g}</td><td>{:.2f}</td><td>{}</"
             "td>"
-            "<td>{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td></tr>\n",
-            r.case_name, r.filter, r.condition, r.max_error, r.max_error_ulp, r.worst_of_bound,
-            r.ownership_errors, r.partition_defect, r.label_conflicts, r.exact_depths, r.closings,
-            r.seconds * 1e6);
-    return out + "</table>";
+            "<td>{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>{}</tr>\n",
+            escapedHtml(r.case_name), escapedHtml(r.filter), r.condition, r.max_error, r.max_error_ulp,
+            r.worst_of_bound, r.ownership_errors, r.partition_defect, r.label_conflicts, r.exact_depths,
+            r.fine_orders, r.closings, r.seconds * 1e6, projectionCells(r.projection));
+    return out + "</table></div>\n";
+}
+
+/// The row of each (case, filter) that comes nearest to its bound.
+Rows worstRows(const Rows& rows) {
+    std::map<std::pair<std::string, std::string>, const StabilityRow*> worst;
+    for (const StabilityRow& row : rows) {
+        const StabilityRow*& kept = worst[{row.case_name, row.filter}];
+        if (!kept || row.worst_of_bound > kept->worst_of_bound) kept = &row;
+    }
+    Rows out;
+    for (const auto& [key, row] : worst) out.push_back(*row);
+    return out;
 }
 
 std::string legend(const Rows& rows) {
-    std::map<std::string, int> filters;
-    for (const StabilityRow& r : rows) filters.try_emplace(r.filter, 0);
-    std::string out = "<p>";
-    std::size_t color = 0;
-    for (const auto& [name, unused] : filters)
-        out += fmt::format("<span style='color:{}'>&#9679; {}</span> &nbsp; ",
-                           Plot::kColors[color++ % Plot::kColors.size()], escaped(name));
-    return out + "&nbsp; dashed: the promised bound</p>\n";
+    std::string out = "<p class='legend'>";
+    for (const auto& [name, color] : colorsOf(rows))
+        out += fmt::format("<span><i style='background:{}'></i>{}</span>", color, escapedHtml(name));
+    return out + "<span>dashed: the promised bound</span><span>hollow: no error at all</span></p>\n";
+}
+
+std::string summary(const Rows& rows) {
+    std::size_t weights = 0, beyond = 0;
+    for (const StabilityRow& r : rows) weights += r.weights, beyond += !keepsPromises(r);
+    return fmt::format("<p class='{}'>{} weights in {} rows; {}.</p>", beyond == 0 ? "good" : "bad", weights,
+                       rows.size(),
+                       beyond == 0 ? "every one within its bound, with the oracle's owners"
+                                   : fmt::format("{} rows break a promise", beyond));
+}
+
+/// Objects become columns of their own, "projection.max_px"; null is an empty cell.
+void flatten(const Json& json, const std::string& prefix, std::vector<std::pair<std::string, Json>>& out) {
+    for (const auto& [key, value] : json.items())
+        if (value.is_object())
+            flatten(value, prefix + key + ".", out);
+        else
+            out.emplace_back(prefix + key, value);
+}
+
+/// Quoted where a comma is in it: `bc:1,0`.
+std::string csvCell(const Json& value) {
+    if (value.is_null()) return "";
+    if (!value.is_string()) return value.dump();
+    const auto text = value.get<std::string>();
+    return text.find_first_of(",\"\n") == std::string::npos ? text : '"' + text + '"';
+}
+
+std::vector<std::pair<std::string, Json>> csvCells(const StabilityRow& row) {
+    Json json = rowJson(row);
+    if (!row.projection) {
+        json["projection"] = projectionJson(ProjectionErrors());
+        for (Json& value : json["projection"]) value = nullptr;
+    }
+    std::vector<std::pair<std::string, Json>> cells;
+    flatten(json, "", cells);
+    return cells;
 }
 
 }  // namespace
@@ -170,49 +235,43 @@ std::string stabilityJson(const Rows& rows, const std::string& command) {
 }
 
 std::string stabilityCsv(const Rows& rows) {
-    std::string out;
-    const Json columns = rowJson(StabilityRow{});
-    for (const auto& [key, value] : columns.items()) out += (out.empty() ? "" : ",") + key;
-    out += '\n';
+    std::string out, names;
+    for (const auto& [key, value] : csvCells(StabilityRow())) names += (names.empty() ? "" : ",") + key;
+    out = names + '\n';
     for (const StabilityRow& row : rows) {
         std::string line;
-        const Json json = rowJson(row);
-        for (const auto& [key, value] : json.items())
-            line += (line.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
+        for (const auto& [key, value] : csvCells(row)) line += (line.empty() ? "" : ",") + csvCell(value);
         out += line + '\n';
     }
     return out;
 }
 
 std::string stabilityLatex(const Rows& rows) {
-    std::map<std::pair<std::string, std::string>, const StabilityRow*> worst;
-    for (const StabilityRow& row : rows) {
-        const StabilityRow*& kept = worst[{row.case_name, row.filter}];
-        if (!kept || row.max_error > kept->max_error) kept = &row;
-    }
     std::string out =
-        "\\begin{tabular}{llrrrr}\n\\toprule\ncase & filter & worst at & max error & of its bound & "
-        "ownership "
-        "errors\\\\\n\\midrule\n";
-    for (const auto& [key, row] : worst)
-        out += fmt::format("{} & {} & {:.0e} & {:.1e} & {:.2f} & {}\\\\\n", row->case_name, row->filter,
-                           row->condition, row->max_error, row->worst_of_bound, row->ownership_errors);
+        "\\begin{tabular}{llrrrrr}\n\\toprule\ncase & filter & worst at & max error & of its bound & "
+        "ownership errors & vertices, px\\\\\n\\midrule\n";
+    for (const StabilityRow& row : worstRows(rows))
+        out +=
+            fmt::format("{} & {} & {:.0e} & {:.1e} & {:.2f} & {} & {}\\\\\n", row.case_name, row.filter,
+                        row.condition, row.max_error, row.worst_of_bound, row.ownership_errors,
+                        row.projection ? fmt::format("{:.1e}", row.projection->max_px) : std::string("--"));
     return out + "\\bottomrule\n\\end{tabular}\n";
 }
 
 std::string stabilityHtml(const Rows& rows, const std::string& command) {
     std::string out = fmt::format(
-        "<!DOCTYPE html><html lang='en'><meta charset='utf-8'><title>edgewise "
-        "stability</title><style>{}</style>"
-        "<h1>Numerical stability</h1><p>Largest error of a pixel's weight against the exact oracle, over the "
-        "difficulty of "
-        "each case. 0 is drawn on the floor of a plot. edgewise {}, <code>{}</code></p>\n",
-        kStyle, version(), escaped(command));
-    out += legend(rows);
+        "<!DOCTYPE html><html lang='en'><meta charset='utf-8'><meta name='viewport' "
+        "content='width=device-width'><title>edgewise stability</title><style>{}</style><main>"
+        "<h1>Numerical stability</h1>{}<p>The largest error of a pixel's weights against exact arithmetic, "
+        "over the difficulty of each case; for scenes that a camera sees, also the largest distance of a "
+        "projected vertex from its exact place. edgewise {}, <code>{}</code></p>\n",
+        kStyle, summary(rows), version(), escapedHtml(command));
+    out += legend(rows) + "<div class='figures'>\n";
     for (const StabilityCase& one : stabilityCases())
-        if (std::ranges::any_of(rows, [&](const StabilityRow& r) { return r.case_name == one.name; }))
-            out += Plot(one, rows).svg();
-    return out + tableHtml(rows) + "</html>\n";
+        for (const Judged judged : {Judged::kWeights, Judged::kVertices})
+            out += figureHtml(one, rows, judged);
+    out += "</div>\n<h2>The worst of each case and filter</h2>\n" + tableHtml(worstRows(rows));
+    return out + "<details><summary>All rows</summary>\n" + tableHtml(rows) + "</details></main></html>\n";
 }
 
 }  // namespace edgewise::judge

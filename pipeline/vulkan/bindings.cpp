@@ -26,7 +26,7 @@ vk::raii::PipelineLayout makeLayout(const Device& device, vk::ShaderStageFlags s
 
 vk::raii::ShaderModule makeModule(const Device& device, std::string_view shader) {
     const std::vector<std::uint32_t> words = withExactArithmetic(spirv(shader));
-    return {device.handle(), vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data())};
+    return {device.handle(), vk::ShaderModuleCreateInfo({}, words)};
 }
 
 }  // namespace

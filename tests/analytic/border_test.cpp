@@ -77,6 +77,20 @@ TEST(Border, CornersBehindATangentLeaveTheCircleToItsOwner) {
 
 /// A vertex on the border with many edges, the steepest of which rounding has moved furthest: the one that
 /// comes first is not the one that leads in.
+/// Two sides of a sliver enter the circle at a vertex on it, nearly along it: which comes first is rounding's
+/// choice, and wrongly chosen it would give A the whole border.
+TEST(Border, ExchangedSidesOfASliverLeaveTheCircleToTheBase) {
+    const double doubt = 0x1p-38, apart = 0x1p-43;
+    for (const bool exchanged : {true, false}) {
+        const double first = exchanged ? -0.25 + apart : -0.25, second = exchanged ? -0.25 : -0.25 + apart;
+        const Shared s = shared({at(first, B, A, doubt), at(second, A, B, doubt)}, true, B);
+        EXPECT_EQ(s.conflicts, 0);
+        EXPECT_EQ(s.sum, std::int64_t{1} << 60);
+        EXPECT_NEAR(s.share.at(A), 0, doubt);
+        EXPECT_NEAR(s.share.at(B), 1, doubt);
+    }
+}
+
 TEST(Border, AVertexOnTheBorderIsEnteredByItsOwnFirstLabel) {
     const double v = 0.375, far = 0x1p-44;
     const std::vector<BorderCrossing> fan{at(v - far, B, C, 4 * far), at(v, C, D, 0x1p-50),

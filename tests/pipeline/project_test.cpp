@@ -211,6 +211,24 @@ TEST(Project, NeighboursStayCrackFreeAfterClipping) {
     EXPECT_LE(uncancelled, std::size_t(kSide + 2 * (kSide / 2 + 1)));
 }
 
+/// The near plane is the world's z = 0, and the triangle tilted by 1e-15 against it: eye space in double
+/// would leave it nearly no digits.
+TEST(Project, CutsAtTheSmallestAnglesWhereTheTriangleMeetsTheNearPlane) {
+    ResolvedCamera camera = test::makePerspective(1.0);
+    camera.camera_from_world = glm::translate(glm::dmat4(1.0), {0.0, 0.0, -1.0});
+    for (const float tilt : {1e-3f, 1e-9f, 1e-12f, 1e-15f, 1e-18f}) {
+        const glm::vec3 a(-1, 1, -tilt), b(1, 1, -tilt), c(0, -3, 2.7f * tilt);
+        const Scene scene = test::makeScene({test::makeGeometry({{{a, b, c}}})});
+        const ScreenScene screen = project(scene, camera, test::makeFilm(64, 64));
+        const long double t = -static_cast<long double>(a.z) / (static_cast<long double>(c.z) - a.z);
+        const auto cut_px = static_cast<double>(32 - 32 * (1 + t * (c.y - 1.0L)));
+        double lowest = 0.0;
+        for (const ScreenTriangle& piece : screen.triangles)
+            for (const auto& p : piece.p_px) lowest = std::max(lowest, p.y);
+        EXPECT_NEAR(lowest, cut_px, kGridPx) << tilt;
+    }
+}
+
 TEST(Project, CoplanarTrianglesAndDuplicatesShareDepthBits) {
     const glm::dmat4 world =
         glm::rotate(glm::translate(glm::dmat4(1.0), {0.1, 0.2, -5.3}), 0.7, {1.0, 2.0, 3.0});

@@ -262,4 +262,15 @@ RandomScene makeRandomScene(SceneKind kind, std::uint64_t seed, int extent) {
     return result;
 }
 
+RandomScene magnified(RandomScene random, int factor) {
+    if (random.kind == SceneKind::kHuge) return random;
+    const dvec2 centre(random.centre);
+    const auto moved = [&](dvec2 p) { return centre + double(factor) * (p - centre); };
+    for (ScreenTriangle& t : random.scene.triangles)
+        for (dvec2& p : t.p_px) p = moved(p);
+    for (DepthPlane& z : random.scene.planes) z.dz_dx /= factor, z.dz_dy /= factor;
+    random.scene.anchor_px = moved(random.scene.anchor_px);
+    return random;
+}
+
 }  // namespace edgewise::witness

@@ -41,4 +41,8 @@ struct RandomScene {
 /// The same for the same seed on every machine. `extent` is the number of edges of a star.
 RandomScene makeRandomScene(SceneKind kind, std::uint64_t seed, int extent = 200);
 
+/// The scene `factor` times as large about the corner of its centre pixel; a power of two, so that the grid
+/// and the depths hold. Huge ones stay as they are: they fill any window, and would leave the guard band.
+RandomScene magnified(RandomScene random, int factor);
+
 }  // namespace edgewise::witness

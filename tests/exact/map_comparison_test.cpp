@@ -1,0 +1,193 @@
+// The whole visible map against the oracle's, face by face, on every kind of hard scene; and maps made wrong
+// on purpose, which have to be found out.
+#include "pipeline/judge/map_comparison.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "analytic/visibility.h"
+#include "tests/witness/hard_cases.h"
+#include "tests/witness/random_scenes.h"
+#include "tests/witness/scene_builder.h"
+
+namespace edgewise {
+namespace {
+
+using judge::MapReport;
+using witness::HardCases;
+using witness::RandomScene;
+using witness::SceneKind;
+
+exact::Region boxAround(glm::ivec2 c, int reach) {
+    return {double(c.x - reach), double(c.y - reach), double(c.x + reach), double(c.y + reach)};
+}
+
+Window windowOf(const exact::Region& box) {
+    return {int(box.x0) - 1, int(box.y0) - 1, int(box.x1) + 1, int(box.y1) + 1};
+}
+
+MapReport judged(const RandomScene& random, int reach) {
+    const exact::Region box = boxAround(random.centre, reach);
+    return judge::compareMaps(random.scene, exact::visibleFaces(random.scene, box),
+                              visibleMap(random.scene, windowOf(box)), box);
+}
+
+/// Hard cases that scenes of a kind have to have shown, in all.
+std::vector<std::size_t HardCases::*> promisedBy(SceneKind kind) {
+    static const std::map<SceneKind, std::vector<std::size_t HardCases::*>> promised = {
+        {SceneKind::kPiercing, {&HardCases::piercing_pairs}},
+        {SceneKind::kCyclic, {&HardCases::depth_cycles}},
+        {SceneKind::kClosedMesh, {&HardCases::shared_sides}},
+        {SceneKind::kClosedMeshBothSides, {&HardCases::shared_sides}},
+        {SceneKind::kFan, {&HardCases::corners_on_samples}},
+        {SceneKind::kTJunctions, {&HardCases::t_junctions}},
+        {SceneKind::kCoplanarDuplicates, {&HardCases::coplanar_overlaps}},
+        {SceneKind::kSlivers, {&HardCases::slivers}},
+        {SceneKind::kAxisAligned, {&HardCases::horizontal, &HardCases::on_pixel_borders}},
+        {SceneKind::kNearCoincident, {&HardCases::near_coincident_pairs, &HardCases::piercing_pairs}},
+        {SceneKind::kTiny, {&HardCases::tiny}},
+        {SceneKind::kHuge, {&HardCases::huge, &HardCases::piercing_pairs}},
+        {SceneKind::kStar, {&HardCases::largest_fan}},
+        {SceneKind::kMixed, {&HardCases::piercing_pairs, &HardCases::near_coincident_pairs}}};
+    return promised.at(kind);
+}
+
+class MapComparison : public testing::TestWithParam<SceneKind> {
+  protected:
+    /// Scenes of seeds 1 .. `seeds`, magnified, in a square of `reach` px around their centres.
+    void judgeSeeds(std::uint64_t seeds, int factor, int reach, int star_edges) {
+        MapReport all;
+        HardCases met;
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            const RandomScene random = magnified(makeRandomScene(GetParam(), seed, star_edges), factor);
+            const MapReport report = judged(random, reach);
+            EXPECT_EQ(report.ownership_errors, 0u) << "seed " << seed << ": " << report.first;
+            EXPECT_LE(report.max_area_error_px2, report.area_bound_px2) << "seed " << seed;
+            all.add(report);
+            if (factor == 1) met += witness::countHardCases(random.scene);
+        }
+        print(all, seeds, reach);
+        EXPECT_GE(all.faces_with_disk, 3 * seeds);
+        EXPECT_GT(all.points, 20 * seeds);
+        EXPECT_EQ(all.unsure_faces, 0u);
+        if (tiesArePromised()) {
+            EXPECT_GT(all.tied_faces, seeds);
+        }
+        if (factor > 1) return;
+        for (const auto member : promisedBy(GetParam())) EXPECT_GT(met.*member, 0u);
+    }
+
+  private:
+    static bool tiesArePromised() {
+        return GetParam() == SceneKind::kCoplanarDuplicates || GetParam() == SceneKind::kTJunctions;
+    }
+
+    static void print(const MapReport& r, std::uint64_t seeds, int reach) {
+        fmt::print(
+            "{}, seeds 1 to {}, {} px wide: {} faces ({} tied), {} with a disk, {} small of {:.1e} px2 (of "
+            "these {} "
+            "of {:.1e} px2 are shown otherwise), {} points, worst area {:.1e} of {:.1e} px2\n",
+            nameOf(GetParam()), seeds, 2 * reach, r.faces, r.tied_faces, r.faces_with_disk, r.small_faces,
+            r.small_area_px2, r.small_wrong.size(), r.small_wrong_area_px2, r.points, r.max_area_error_px2,
+            r.area_bound_px2);
+    }
+};
+
+TEST_P(MapComparison, OwnersAndAreasAreTheOracles) {
+    judgeSeeds(8, 1, 4, 60);
+}
+
+TEST_P(MapComparison, LargeWindowsToo) {
+    judgeSeeds(2, 8, 32, 60);
+}
+
+TEST_P(MapComparison, NightlyManyScenes) {
+    judgeSeeds(GetParam() == SceneKind::kStar ? 20 : 300, 1, 4, 400);
+    judgeSeeds(GetParam() == SceneKind::kStar ? 10 : 100, 8, 32, 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(Exact, MapComparison, testing::ValuesIn(witness::allSceneKinds()),
+                         [](const auto& one) { return nameOf(one.param); });
+
+/// A triangle over a part of another, and a speck over that: a thousandth of the area's bound, but 32 disks
+/// wide.
+struct Layers {
+    static constexpr double kSpeckPx = 32 * judge::kDiskPx;
+    ScreenScene scene;
+    exact::Region box{0, 0, 8, 8};
+    VisibleMap map;
+
+    Layers() {
+        witness::SceneBuilder builder;
+        for (const double depth : {1.0, 2.0, 3.0}) builder.addPlane(DepthPlane{0, 0, depth});
+        builder.addOnPlane({glm::dvec2{1, 1}, {7, 1.5}, {2, 7}}, 0);
+        builder.addOnPlane({glm::dvec2{2, 2}, {4, 2.25}, {2.5, 4}}, 1);
+        builder.addOnPlane({glm::dvec2{4.5, 2.5}, {4.5 + kSpeckPx, 2.5}, {4.5, 2.5 + kSpeckPx}}, 2);
+        scene = builder.scene();
+        map = visibleMap(scene, windowOf(box));
+    }
+    MapReport report() const { return judge::compareMaps(scene, exact::visibleFaces(scene, box), map, box); }
+    void forget(Owner owner) {
+        std::erase_if(map.segments,
+                      [=](const VisibleSegment& s) { return s.left == owner || s.right == owner; });
+    }
+};
+
+TEST(WrongMaps, TheRightOneIsFoundRight) {
+    const MapReport report = Layers().report();
+    EXPECT_TRUE(report.good()) << report.first;
+    EXPECT_EQ(report.faces, 3u);
+    EXPECT_EQ(report.faces_with_disk, 3u);
+}
+
+TEST(WrongMaps, ExchangedOwnersAreFound) {
+    Layers layers;
+    for (VisibleSegment& s : layers.map.segments)
+        for (Owner* owner : {&s.left, &s.right})
+            if (*owner < 2) *owner = 1 - *owner;
+    EXPECT_GT(layers.report().ownership_errors, 0u);
+    EXPECT_GT(layers.report().max_area_error_px2, 0.1);
+}
+
+TEST(WrongMaps, AMissingSegmentIsFound) {
+    Layers layers;
+    for (std::size_t i = 0; i < layers.map.segments.size(); ++i) {
+        Layers holed;
+        holed.map.segments.erase(holed.map.segments.begin() + static_cast<std::ptrdiff_t>(i));
+        EXPECT_GT(holed.report().ownership_errors, 0u) << "segment " << i;
+    }
+}
+
+TEST(WrongMaps, AMovedEndIsFoundByTheArea) {
+    Layers layers;
+    std::size_t ends = 0;
+    for (VisibleSegment& s : layers.map.segments)
+        for (FinePoint* p : {&s.a, &s.b})
+            if (p->grid == glm::dvec2{4, 2.25}) p->grid.x += judge::kDiskPx, ++ends;
+    EXPECT_EQ(ends, 2u);
+    EXPECT_GT(layers.report().max_area_error_px2, layers.report().area_bound_px2);
+}
+
+TEST(WrongMaps, ASpeckLeftOutIsFoundByItsOwner) {
+    Layers layers;
+    layers.forget(2);
+    const MapReport report = layers.report();
+    EXPECT_LT(report.max_area_error_px2, 0.1 * report.area_bound_px2);
+    EXPECT_GT(report.ownership_errors, 0u);
+    EXPECT_NE(report.first.find("0 instead of 2"), std::string::npos) << report.first;
+}
+
+TEST(WrongMaps, ASpeckMadeUpIsFoundByItsOwner) {
+    Layers layers;
+    layers.scene.triangles.pop_back();
+    const MapReport report = layers.report();
+    EXPECT_LT(report.max_area_error_px2, 0.1 * report.area_bound_px2);
+    EXPECT_GT(report.ownership_errors, 0u);
+    EXPECT_NE(report.first.find("2 instead of 0"), std::string::npos) << report.first;
+}
+
+}  // namespace
+}  // namespace edgewise
