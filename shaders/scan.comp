@@ -42,5 +42,5 @@ void main() {
         sums[i] = running;
         running = plus(running, counts[i]);
     }
-    if (first < count && last == count) sums[count] = running;
+    if ((first < count && last == count) || (count == 0 && lane == 0)) sums[count] = running;
 }

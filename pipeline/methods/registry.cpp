@@ -12,6 +12,12 @@
 namespace edgewise {
 namespace {
 
+#ifdef EDGEWISE_HAS_VULKAN
+constexpr auto kNsaaVulkan = runNsaaVulkan;
+#else
+constexpr decltype(MethodEntry::run) kNsaaVulkan = nullptr;
+#endif
+
 const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
 
 const MethodEntry* findMethod(std::string_view name) {
@@ -102,7 +108,8 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .choices = {{"visibility", {"slab"}}},
-         .run = runNsaa},
+         .run = runNsaa,
+         .run_vulkan = kNsaaVulkan},
         {.name = "ssaa",
          .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
          .number = MethodEntry::Number::kRequired,
