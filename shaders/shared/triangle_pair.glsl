@@ -25,7 +25,7 @@ EDGEWISE_FN bool separates(EDGEWISE_IN(ScreenTriangle) s, EDGEWISE_IN(ScreenTria
     return false;
 }
 
-/// Whether a line of equal depth passes within 2^-40 px of a point. The comparison is of squares: no root.
+/// Whether a line of equal depth passes within 2^-40 px of a point.
 EDGEWISE_FN bool passesNear(EDGEWISE_IN(Carrier) depth_line, dvec2 p) {
     double f = depthDifference(depth_line, p).hi;
     return abs(f) <= EDGEWISE_REAL(9.094947017729282e-13) * hypotenuse(depth_line.A.hi, depth_line.B.hi);
