@@ -265,12 +265,14 @@ Outcome weightsAreTheOracles(const Trial& trial) {
 
 Outcome weightsSumToOne(const Trial& trial) {
     Weighed product(trial.scene, trial);
+    const double moved = movedAtVertices(product.screen(), trial.filter);
     return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
         const test::PixelParts parts = product.pixel(p);
         if (parts.sum() != kOne) return wrong(p, "the weights do not sum to 1");
         if (parts.label_conflicts != 0) return wrong(p, "the border's labels do not chain");
         for (const OwnerWeight& w : parts.entries)
-            if (std::ldexp(static_cast<double>(w.weight), -kWeightBits) < -roundingsOf(parts.terms) &&
+            if (std::ldexp(static_cast<double>(w.weight), -kWeightBits) <
+                    -(roundingsOf(parts.terms) + moved) &&
                 !hasNegativeLobes(trial.filter))
                 return wrong(p, fmt::format("owner {} has a negative weight", w.owner));
         return {};

@@ -47,7 +47,8 @@ inline void PrintTo(const Property& property, std::ostream* out) {
 Outcome ownersAreTheOracles(const Trial& trial);
 /// The trial's kernel's weights of a few pixels are the oracle's 30 digits, within the same bound.
 Outcome weightsAreTheOracles(const Trial& trial);
-/// Weights sum to exactly 2^60, labels chain along the border, and positive kernels give no negative weight.
+/// Weights sum to exactly 2^60, labels chain along the border, and positive kernels give no weight below 0 by
+/// more than roundings and what visibility moves at shared vertices.
 Outcome weightsSumToOne(const Trial& trial);
 /// Moved by whole cells the picture has the same bits; by whole pixels it is the same but for roundings, for
 /// other cells may name another owner along a few roundings of their border. [E16]
