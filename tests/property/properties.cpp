@@ -81,34 +81,6 @@ std::string differences(const test::PixelParts& before, const test::PixelParts& 
     return {};
 }
 
-/// `now` is the scene written in another way, in which owner i was was[i].
-Outcome sameWeights(const Trial& trial, const WorldScene& now, const std::vector<Owner>& was) {
-    Weighed a(trial.scene, trial), b(now, trial);
-    const auto before = a.planes();
-    for (const auto& [owner, plane] : b.planes()) {
-        const auto old = before.find(was[owner]);
-        if (old == before.end() || !samePlane(old->second, plane)) return kNotAsked;
-    }
-    return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
-        const test::PixelParts x = a.pixel(p), y = b.pixel(p);
-        std::string what = differences(x, y, was, roundingsOf(x.terms) + roundingsOf(y.terms));
-        return what.empty() ? Outcome{} : wrong(p, std::move(what));
-    });
-}
-
-MethodResult picture(const View& view, const Prefilter& filter, const RenderOptions& options) {
-    Progress progress;
-    return runMethod(parseMethod("nsaa"), {view.scene, view.camera, view.film, filter, options, progress});
-}
-
-Outcome samePicture(const ImageBuffer& whole, const ImageBuffer& part, const char* what) {
-    return forPixels(part.box, [&](glm::ivec2 p) -> Outcome {
-        const std::size_t i = whole.index(p.x, p.y), k = part.index(p.x, p.y);
-        if (whole.rgba[i] == part.rgba[k] && whole.edge[i] == part.edge[k]) return {};
-        return wrong(p, what);
-    });
-}
-
 exact::Rational depthAt(const ScreenScene& screen, const DepthPlane& plane, glm::dvec2 at_px) {
     return exact::Rational(plane.dz_dx) * exact::Rational(at_px.x - screen.anchor_px.x) +
            exact::Rational(plane.dz_dy) * exact::Rational(at_px.y - screen.anchor_px.y) +
@@ -138,6 +110,36 @@ double movedAtVertices(const ScreenScene& screen, const Prefilter& filter) {
                 if (std::ranges::find(t.vertex, s.vertex[k]) != t.vertex.end())
                     moved_px += missed(screen, screen.planes[s.plane], screen.planes[t.plane], s.p_px[k]);
     return moved_px * 2 * std::numbers::sqrt2 * filter.radius * evaluate(filter, 0, 0);
+}
+
+/// `now` is the scene written in another way, in which owner i was was[i].
+Outcome sameWeights(const Trial& trial, const WorldScene& now, const std::vector<Owner>& was) {
+    Weighed a(trial.scene, trial), b(now, trial);
+    const auto before = a.planes();
+    for (const auto& [owner, plane] : b.planes()) {
+        const auto old = before.find(was[owner]);
+        if (old == before.end() || !samePlane(old->second, plane)) return kNotAsked;
+    }
+    const double moved =
+        movedAtVertices(a.screen(), trial.filter) + movedAtVertices(b.screen(), trial.filter);
+    return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
+        const test::PixelParts x = a.pixel(p), y = b.pixel(p);
+        std::string what = differences(x, y, was, roundingsOf(x.terms) + roundingsOf(y.terms) + moved);
+        return what.empty() ? Outcome{} : wrong(p, std::move(what));
+    });
+}
+
+MethodResult picture(const View& view, const Prefilter& filter, const RenderOptions& options) {
+    Progress progress;
+    return runMethod(parseMethod("nsaa"), {view.scene, view.camera, view.film, filter, options, progress});
+}
+
+Outcome samePicture(const ImageBuffer& whole, const ImageBuffer& part, const char* what) {
+    return forPixels(part.box, [&](glm::ivec2 p) -> Outcome {
+        const std::size_t i = whole.index(p.x, p.y), k = part.index(p.x, p.y);
+        if (whole.rgba[i] == part.rgba[k] && whole.edge[i] == part.edge[k]) return {};
+        return wrong(p, what);
+    });
 }
 
 /// That other cells, which cut the scene elsewhere, leave all but roundings.
