@@ -4,27 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "analytic/cell_overlap.h"
 #include "analytic/local_plane.h"
 
 namespace edgewise {
 namespace {
-
-/// Largest and smallest of cross(e, p - a) over the cell's corners, and the bound of its rounding.
-struct EdgeRange {
-    double lowest, highest, error;
-};
-
-EdgeRange edgeRange(glm::dvec2 a, glm::dvec2 b, const Cell& cell) {
-    const glm::dvec2 e = b - a;
-    const glm::dvec2 lo = cell.min - a, hi = cell.max - a;
-    const double px_hi = e.x * (e.x > 0 ? hi.y : lo.y), px_lo = e.x * (e.x > 0 ? lo.y : hi.y);
-    const double py_hi = e.y * (e.y > 0 ? hi.x : lo.x), py_lo = e.y * (e.y > 0 ? lo.x : hi.x);
-    // Two products and their difference round; the border itself is kBorderRestPx away from the grid.
-    const double size = std::abs(e.x) * std::max(std::abs(lo.y), std::abs(hi.y)) +
-                        std::abs(e.y) * std::max(std::abs(lo.x), std::abs(hi.x));
-    const double error = 3.0 * 0x1p-53 * size + (std::abs(e.x) + std::abs(e.y)) * (2.0 * kBorderRestPx);
-    return {px_lo - py_hi, px_hi - py_lo, error};
-}
 
 /// Whether p hides q on the whole cell: its depth is greater at all four corners.
 bool hides(const ScreenScene& scene, const ScreenTriangle& p, const ScreenTriangle& q, const Cell& cell) {
@@ -41,24 +25,23 @@ bool hides(const ScreenScene& scene, const ScreenTriangle& p, const ScreenTriang
 }  // namespace
 
 Overlap overlap(const ScreenTriangle& t, const Cell& cell) {
-    bool covers = true;
-    const auto& p = t.p_px;
-    const double x0 = std::min({p[0].x, p[1].x, p[2].x}), x1 = std::max({p[0].x, p[1].x, p[2].x});
-    const double y0 = std::min({p[0].y, p[1].y, p[2].y}), y1 = std::max({p[0].y, p[1].y, p[2].y});
-    if (x1 <= cell.min.x || x0 > cell.max.x || y1 <= cell.min.y || y0 > cell.max.y) return {false, false};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const EdgeRange range = edgeRange(p[k], p[(k + 1) % 3], cell);
-        if (range.highest < -range.error) return {false, false};
-        covers = covers && range.lowest > range.error;
-    }
-    return {true, covers};
+    const auto& [a, b, c] = t.p_px;
+    const int found =
+        f64::cellOverlap(a.x, a.y, b.x, b.y, c.x, c.y, cell.min.x, cell.min.y, cell.max.x, cell.max.y);
+    return {found != f64::kMisses, found == f64::kCovers};
 }
 
 void CellVisibility::run(const ScreenScene& scene, const Cell& cell,
                          std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
                          CellOutput& out) {
+    runPart(scene, cell, cell.min, candidates, options, out);
+}
+
+void CellVisibility::runPart(const ScreenScene& scene, const Cell& part, glm::dvec2 origin,
+                             std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
+                             CellOutput& out) {
     stack_.assign(candidates.begin(), candidates.end());
-    visit(scene, cell, cell.min, 0, stack_.size(), options, out);
+    visit(scene, part, origin, 0, stack_.size(), options, out);
 }
 
 /// Keeps on the stack's top, of [begin, end), what meets the cell and no opaque triangle hides there. Returns

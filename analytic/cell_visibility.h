@@ -17,6 +17,11 @@ class CellVisibility {
     void run(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> candidates,
              const VisibilityOptions& options, CellOutput& out);
 
+    /// The same for a part of a cell whose arithmetic has the whole cell's `origin`: what run() makes of it.
+    void runPart(const ScreenScene& scene, const Cell& part, glm::dvec2 origin,
+                 std::span<const std::uint32_t> candidates, const VisibilityOptions& options,
+                 CellOutput& out);
+
   private:
     void visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
                std::size_t end, const VisibilityOptions& options, CellOutput& out);

@@ -144,11 +144,18 @@ Fit fitFactor(const Factor& factor) {
     throw std::logic_error("fitFactor: degree 24 is not enough");
 }
 
+/// Beyond a Gaussian's reach k is 0: there the integrand is 0, or K is constant and it varies along y alone.
+bool holdsKernel(const KernelTable& table, int interval) {
+    const auto first = table.k.begin() + static_cast<std::ptrdiff_t>(interval) * table.k_count;
+    return std::any_of(first, first + table.k_count, [](double c) { return c != 0.0; });
+}
+
 /// A cell's integrand K(x) k(y) on a line: |K| <= l1 + y sup|k| growth(y).
 int cellNodes(const Factor& factor, const KernelTable& table) {
     if (factor.degree >= 0) return factor.degree + 1;
     double width = 0.0;
-    for (int i = 0; i < table.intervals(); ++i) width = std::max(width, 2.0 / table.inverse_half[i]);
+    for (int i = 0; i < table.intervals(); ++i)
+        if (holdsKernel(table, i)) width = std::max(width, 2.0 / table.inverse_half[i]);
     const double length = width * M_SQRT2;
     const auto growth = [&](double y) {
         const double k = table.k_max * factor.growth(y);

@@ -224,8 +224,8 @@ void LeafLines::sortKeys() {
     }
     for (const LeafEvent& event : events) addKey(event.key, yOf(event.point));
     for (const LeafHorizontal& h : horizontals) addKey(h.key, h.y);
-    std::sort(key_scratch_.begin(), key_scratch_.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(key_scratch_.begin(), key_scratch_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     keys.assign(1, frame.top), ordinates.assign(1, border(frame.cell.min.y));
     for (const auto& [key, y] : key_scratch_) {
         if (key == keys.back()) continue;
@@ -233,10 +233,10 @@ void LeafLines::sortKeys() {
         ordinates.push_back(y);
     }
     keys.push_back(frame.bottom), ordinates.push_back(border(frame.cell.max.y));
-    std::sort(events.begin(), events.end(),
-              [](const LeafEvent& a, const LeafEvent& b) { return a.key < b.key; });
-    std::sort(horizontals.begin(), horizontals.end(),
-              [](const LeafHorizontal& a, const LeafHorizontal& b) { return a.key < b.key; });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const LeafEvent& a, const LeafEvent& b) { return a.key < b.key; });
+    std::stable_sort(horizontals.begin(), horizontals.end(),
+                     [](const LeafHorizontal& a, const LeafHorizontal& b) { return a.key < b.key; });
 }
 
 }  // namespace edgewise

@@ -2,6 +2,7 @@
 #pragma once
 
 #define EDGEWISE_FN [[gnu::always_inline]] inline
+#define EDGEWISE_EXACT_FN [[gnu::always_inline]] inline
 #define EDGEWISE_PRECISE
 #define EDGEWISE_INIT {
 #define EDGEWISE_END }

@@ -1,9 +1,9 @@
 // A lattice of square cells over the film, in whole pixels.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
+#include "analytic/cell_overlap.h"
 #include "analytic/visibility.h"
 
 namespace edgewise {
@@ -23,15 +23,9 @@ struct CellGrid {
         const double y = px.y0 + kCellPx * static_cast<double>(i / columns);
         return {{x, y}, {x + kCellPx, y + kCellPx}};
     }
-    /// The cell, clamped to the grid, that holds a coordinate; `before` where a border belongs to the cell
-    /// before it.
-    int columnOf(double x) const { return clampCell((x - px.x0) / kCellPx, columns); }
-    int rowOf(double y) const { return clampCell((y - px.y0) / kCellPx, rows); }
-
-  private:
-    static int clampCell(double cell, int count) {
-        return static_cast<int>(std::clamp(cell, 0.0, static_cast<double>(std::max(0, count - 1))));
-    }
+    /// The cell, clamped to the grid, that holds a coordinate.
+    int columnOf(double x) const { return f64::clampedCell(x, px.x0, columns); }
+    int rowOf(double y) const { return f64::clampedCell(y, px.y0, rows); }
 };
 
 }  // namespace edgewise

@@ -12,6 +12,7 @@
 #include "analytic/layer_stacks.h"
 #include "pipeline/error.h"
 #include "pipeline/shade.h"
+#include "pipeline/shading_text.h"
 
 namespace edgewise {
 
@@ -34,9 +35,8 @@ double throughLayers(std::span<const Owner> layers, const ShadeLayer& shade, con
         if (layers[k] == kBackground) return left;
         const Shade layer = shade(layers[k]);
         const bool last = k + 1 == layers.size();
-        const double share = last ? left : left * layer.alpha;
-        visit(k, share, layer.color);
-        left = last ? 0.0 : left * (1.0 - layer.alpha);
+        visit(k, f64::shareOf(left, layer.alpha, last), layer.color);
+        left = f64::leftBehind(left, layer.alpha, last);
     }
     return left;
 }

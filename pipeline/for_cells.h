@@ -14,10 +14,8 @@ void forCellsOf(const ScreenTriangle& t, const CellGrid& grid, Visit&& visit) {
     const auto& p = t.p_px;
     const double x0 = std::min({p[0].x, p[1].x, p[2].x}), x1 = std::max({p[0].x, p[1].x, p[2].x});
     const double y0 = std::min({p[0].y, p[1].y, p[2].y}), y1 = std::max({p[0].y, p[1].y, p[2].y});
-    if (x1 <= grid.px.x0 || y1 <= grid.px.y0 || x0 > grid.px.x1 || y0 > grid.px.y1) return;
-    // A vertex on a border belongs to the cell before it: step back by less than the grid.
-    const int c0 = grid.columnOf(x0 - kGridPx), c1 = grid.columnOf(x1);
-    const int r0 = grid.rowOf(y0 - kGridPx), r1 = grid.rowOf(y1);
+    const auto [c0, c1] = f64::cellSpan(x0, x1, grid.px.x0, grid.columns);
+    const auto [r0, r1] = f64::cellSpan(y0, y1, grid.px.y0, grid.rows);
     const bool single = c0 == c1 && r0 == r1;
     for (int row = r0; row <= r1; ++row) {
         for (int column = c0; column <= c1; ++column) {

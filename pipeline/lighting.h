@@ -6,6 +6,7 @@
 
 #include "pipeline/film.h"
 #include "pipeline/scene.h"
+#include "pipeline/shading_text.h"
 
 namespace edgewise {
 
@@ -20,11 +21,7 @@ inline constexpr double kRigAmbient = 0.15;
 inline constexpr RigLight kRigKey{{2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, 0.8};
 inline constexpr RigLight kRigFill{{-6.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0}, 0.2};
 
-/// One light as it arrives at a point.
-struct Arrival {
-    glm::dvec3 towards{0.0, 0.0, 1.0};  ///< unit, from the point to the light, eye space
-    glm::dvec3 illuminance{0.0};        ///< lux on a surface that faces it
-};
+using f64::Arrival, f64::EyeLight;
 
 /// The lights of a scene in eye space, by KHR_lights_punctual:
 ///     directional: intensity lux, everywhere the same
@@ -46,19 +43,18 @@ class Lighting {
     bool isUniform() const { return uniform_; }
 
     /// Unit, from the point to where it is seen from, eye space.
-    glm::dvec3 view(const glm::dvec3& p_eye) const;
+    glm::dvec3 view(const glm::dvec3& p_eye) const { return f64::viewFrom(p_eye, viewIsUniform()); }
+
+    /// view() is +z everywhere.
+    bool viewIsUniform() const { return rig_ || !perspective_; }
 
     std::size_t count() const { return lights_.size(); }
-    Arrival arrival(std::size_t i, const glm::dvec3& p_eye) const;
+    Arrival arrival(std::size_t i, const glm::dvec3& p_eye) const {
+        return f64::arrivalAt(lights_[i], p_eye);
+    }
+    const std::vector<EyeLight>& lights() const { return lights_; }
 
   private:
-    struct EyeLight {
-        Light::Type type;
-        glm::dvec3 position, along;  ///< eye space; along: unit, the way the light travels
-        glm::dvec3 strength;         ///< color times lux or candela
-        double range;                ///< infinity: none
-        double cos_outer, scale;     ///< spot
-    };
     static EyeLight inEyeSpace(const Light& light, const glm::dmat4& camera_from_world);
 
     std::vector<EyeLight> lights_;

@@ -5,6 +5,7 @@
 
 #include "analytic/screen_triangle.h"
 #include "pipeline/error.h"
+#include "pipeline/shading_text.h"
 
 namespace edgewise {
 namespace {
@@ -37,8 +38,7 @@ glm::dvec2 ScreenMap::toScreen(const glm::dvec3& p_eye) const {
 }
 
 glm::dvec2 ScreenMap::toImagePlane(glm::dvec2 p_px, glm::dvec2 delta_px) const {
-    const glm::dvec2 from_centre = (((p_px - offset_px) - whole_px) - fraction_px) + delta_px;
-    return {from_centre.x / scale_px, -from_centre.y / scale_px};
+    return f64::imagePlanePoint(p_px, delta_px, offset_px, whole_px, fraction_px, scale_px);
 }
 
 glm::dvec2 ScreenMap::anchorPx() const {

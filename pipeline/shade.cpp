@@ -17,43 +17,18 @@ struct Shading::Surface {
     std::uint32_t plane;
 };
 
-/// A place on a triangle: perspective-correct barycentrics and how they change along the screen's axes.
-struct Shading::Location {
-    glm::dvec3 barycentric{0.0};
-    glm::dvec3 d_dx{0.0}, d_dy{0.0};  ///< per pixel
-    glm::dvec3 p_eye{0.0};
-};
-
 namespace {
-
-double cross2(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-/// From s to the nearest point of the segment a, b; the differences of grid points are exact.
-glm::dvec2 offsetToSegment(glm::dvec2 a, glm::dvec2 b, glm::dvec2 s) {
-    const glm::dvec2 along = b - a;
-    const double t = -glm::dot(a - s, along) / glm::dot(along, along);
-    return t <= 0.0 ? a - s : (t >= 1.0 ? b - s : (a - s) + along * t);
-}
 
 bool inside(const ScreenTriangle& piece, glm::dvec2 s) {
     for (int k = 0; k < 3; ++k)
-        if (cross2(piece.p_px[(k + 1) % 3] - piece.p_px[k], s - piece.p_px[k]) < 0.0) return false;
+        if (f64::sideOf(piece.p_px[k], piece.p_px[(k + 1) % 3], s) < 0.0) return false;
     return true;
-}
-
-/// Inside [0, 1] and summing to 1: nothing is extrapolated, not even from a triangle seen almost edge-on.
-glm::dvec3 clampToTriangle(const glm::dvec3& barycentric) {
-    const glm::dvec3 clamped = glm::clamp(barycentric, 0.0, 1.0);
-    const double sum = clamped.x + clamped.y + clamped.z;
-    return sum > 0.0 ? clamped / sum : glm::dvec3(1.0 / 3.0);
 }
 
 template <class Vector>
 auto interpolate(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex,
                  const glm::dvec3& w) {
-    return values[vertex[0]] * w.x + values[vertex[1]] * w.y + values[vertex[2]] * w.z;
+    return f64::mix3(values[vertex[0]], values[vertex[1]], values[vertex[2]], w);
 }
 
 template <class Vector>
@@ -70,11 +45,12 @@ glm::dvec2 mapDirection(const TextureUse& use, glm::dvec2 duv) {
     return glm::dvec2(use.uv_from_vertex * glm::dvec3(duv, 0.0));
 }
 
+std::optional<glm::dvec3> nonzero(const glm::dvec3& v) {
+    return f64::isZero(v) ? std::nullopt : std::optional(v);
+}
+
 std::optional<glm::dvec3> unit(const glm::dvec3& v) {
-    const double size = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-    if (size == 0.0) return std::nullopt;
-    const glm::dvec3 scaled = v / size;
-    return scaled / std::sqrt(glm::dot(scaled, scaled));
+    return nonzero(f64::unitOrZero(v));
 }
 
 }  // namespace
@@ -115,37 +91,9 @@ Shading::Surface Shading::surfaceOf(Owner owner) const {
             pieces_.back_facing[owner] != 0, screen_.triangles[pieces_.first[owner]].plane};
 }
 
-/// Barycentrics of the plane's point on the pixel's ray. A corner a is moved along the ray r = (u, v, -1)
-/// onto z = 0, a' = a + a.z (u, v): det(r, b, c) does not change by that, so the weight of a is cross(b',
-/// c'), whether or not the corners lie behind the eye. Orthographic: a' = a - (u, v). The weights are affine
-/// in (u, v).
 Shading::Location Shading::locate(const Surface& surface, glm::dvec2 uv) const {
-    std::array<glm::dvec3, 3> corner;
-    std::array<glm::dvec2, 3> moved;
-    std::array<double, 3> slope;  // d a' / d(u, v), times the identity
-    for (int k = 0; k < 3; ++k) {
-        corner[k] = cornerEye(surface, k);
-        slope[k] = map_.perspective ? corner[k].z : -1.0;
-        moved[k] = glm::dvec2(corner[k]) + slope[k] * uv;
-    }
-    glm::dvec3 weight, d_du, d_dv;
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        weight[k] = cross2(moved[i], moved[j]);
-        d_du[k] = slope[i] * moved[j].y - moved[i].y * slope[j];
-        d_dv[k] = moved[i].x * slope[j] - slope[i] * moved[j].x;
-    }
-    const double sum = weight.x + weight.y + weight.z;
-    const auto place = [&](const glm::dvec3& w) {
-        return corner[0] * w.x + corner[1] * w.y + corner[2] * w.z;
-    };
-    const glm::dvec3 middle(1.0 / 3.0);
-    if (sum == 0.0) return {middle, {}, {}, place(middle)};
-    auto derivative = [&](const glm::dvec3& d) {
-        return (d - (weight / sum) * (d.x + d.y + d.z)) / (sum * map_.scale_px);
-    };
-    const glm::dvec3 barycentric = clampToTriangle(weight / sum);
-    return {barycentric, derivative(d_du), -derivative(d_dv), place(barycentric)};
+    return f64::surfacePointAt(cornerEye(surface, 0), cornerEye(surface, 1), cornerEye(surface, 2), uv,
+                               map_.perspective, map_.scale_px);
 }
 
 glm::dvec3 Shading::cornerEye(const Surface& surface, int corner) const {
@@ -176,7 +124,7 @@ glm::dvec3 Shading::vertexNormalAt(const Surface& surface, const glm::dvec3& w) 
 std::optional<glm::dvec4> Shading::tangentAt(const Surface& surface, const Location& at,
                                              const glm::dvec3& normal) const {
     const Geometry& geometry = *surface.geometry;
-    const auto orthogonal = [&](const glm::dvec3& t) { return unit(t - normal * glm::dot(normal, t)); };
+    const auto orthogonal = [&](const glm::dvec3& t) { return nonzero(f64::orthogonalTo(normal, t)); };
     if (!geometry.tangent_world.empty()) {
         const glm::dvec4 world = interpolate(geometry.tangent_world, surface.vertex, at.barycentric);
         const auto tangent = orthogonal(glm::dmat3(camera_from_world_) * glm::dvec3(world));
@@ -190,13 +138,10 @@ std::optional<glm::dvec4> Shading::tangentAt(const Surface& surface, const Locat
         uv[k] = mapPoint(surface.material->normal_map,
                          geometry.uv[surface.material->normal_map.uv][surface.vertex[k]]);
     }
-    const glm::dvec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
-    const double area = cross2(a, b) < 0.0 ? -1.0 : (cross2(a, b) > 0.0 ? 1.0 : 0.0);
-    const glm::dvec3 dp_du = area * ((p[1] - p[0]) * b.y - (p[2] - p[0]) * a.y),
-                     dp_dv = area * ((p[2] - p[0]) * a.x - (p[1] - p[0]) * b.x);
-    const auto tangent = orthogonal(dp_du);
+    const auto tangent = orthogonal(f64::alongU(p[0], p[1], p[2], uv[0], uv[1], uv[2]));
     if (!tangent) return std::nullopt;
-    return glm::dvec4(*tangent, glm::dot(glm::cross(normal, *tangent), dp_dv) > 0.0 ? -1.0 : 1.0);
+    const glm::dvec3 along_v = f64::alongV(p[0], p[1], p[2], uv[0], uv[1], uv[2]);
+    return glm::dvec4(*tangent, f64::bitangentSign(normal, *tangent, along_v));
 }
 
 glm::dvec3 Shading::normalAt(const Surface& surface, const Location& at) const {
@@ -207,10 +152,8 @@ glm::dvec3 Shading::normalAt(const Surface& surface, const Location& at) const {
     const glm::dvec3 normal = side * seen;
     const auto tangent = tangentAt(surface, at, normal);
     if (!tangent) return seen;
-    const double scale = surface.material->normal_scale;
-    const glm::dvec3 map = (2.0 * glm::dvec3(*texel) - 1.0) * glm::dvec3(scale, scale, 1.0);
-    const glm::dvec3 t(*tangent), b = glm::cross(normal, t) * tangent->w;
-    const auto bumped = unit(t * map.x + b * map.y + normal * map.z);
+    const auto bumped = nonzero(f64::bumpedNormal(normal, glm::dvec3(*tangent), tangent->w,
+                                                  glm::dvec3(*texel), surface.material->normal_scale));
     return bumped ? side * *bumped : seen;
 }
 
@@ -269,8 +212,7 @@ glm::dvec3 Shading::emissiveAt(const Surface& surface, const Location& at) const
 double Shading::ambientAt(const Surface& surface, const Location& at) const {
     if (!lighting_.isRig()) return 0.0;
     const auto texel = texelAt(surface, at, surface.material->occlusion_map);
-    return texel ? kRigAmbient * (1.0 + surface.material->occlusion_strength * (texel->r - 1.0))
-                 : kRigAmbient;
+    return texel ? f64::occluded(kRigAmbient, surface.material->occlusion_strength, texel->r) : kRigAmbient;
 }
 
 glm::dvec3 Shading::litColor(const Surface& surface, const Location& at, const glm::dvec3& base) const {
@@ -334,6 +276,10 @@ std::optional<Shade> Shading::constant(Owner owner) const {
     return constant(surfaceOf(owner));
 }
 
+bool Shading::varies(Owner owner) const {
+    return varies(surfaceOf(owner));
+}
+
 Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
     const Surface surface = surfaceOf(owner);
     if (const auto shade = constant(surface)) return *shade;
@@ -351,7 +297,7 @@ glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
     for (const ScreenTriangle& piece : pieces_.of(owner, screen_)) {
         if (inside(piece, sample_px)) return glm::dvec2(0.0);
         for (int k = 0; k < 3; ++k) {
-            const glm::dvec2 offset = offsetToSegment(piece.p_px[k], piece.p_px[(k + 1) % 3], sample_px);
+            const glm::dvec2 offset = f64::offsetToSegment(piece.p_px[k], piece.p_px[(k + 1) % 3], sample_px);
             if (glm::dot(offset, offset) >= best_px2) continue;
             best = offset;
             best_px2 = glm::dot(offset, offset);

@@ -10,6 +10,7 @@
 #include "pipeline/lighting.h"
 #include "pipeline/project.h"
 #include "pipeline/screen_map.h"
+#include "pipeline/shading_text.h"
 #include "pipeline/texture.h"
 
 namespace edgewise {
@@ -62,9 +63,20 @@ class Shading {
     /// From the sample to the point where closest() shades.
     glm::dvec2 closestOffset(Owner owner, glm::dvec2 sample_px) const;
 
+    /// constant() has nothing.
+    bool varies(Owner owner) const;
+
+    const Lighting& lighting() const { return lighting_; }
+    const ScreenMap& screenMap() const { return map_; }
+
+    /// Of an image that some material uses so.
+    const MipPyramid& pyramid(std::uint32_t image, TexelKind kind) const {
+        return *(kind == TexelKind::kNormal ? normal_pyramids_ : pyramids_)[image];
+    }
+
   private:
     struct Surface;
-    struct Location;
+    using Location = f64::SurfacePoint;
     Surface surfaceOf(Owner owner) const;
     Location locate(const Surface& surface, glm::dvec2 image_plane) const;
     glm::dvec3 cornerEye(const Surface& surface, int corner) const;

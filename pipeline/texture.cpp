@@ -3,6 +3,51 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/shading_text.h"
+
+// The shared text on pyramids in memory.
+namespace edgewise::f64 {
+namespace {
+
+struct TextureLook {
+    int wrap_s, wrap_t, mag, min, mip, levels;
+    const MipPyramid* pyramid;
+};
+struct TextureLevel {
+    int width, height;
+    const glm::vec4* texels;
+};
+
+EDGEWISE_FN TextureLevel levelAt(const TextureLook& look, int i) {
+    const Image& image = look.pyramid->level(i);
+    return {image.width, image.height, image.texels.data()};
+}
+
+EDGEWISE_FN dvec4 texelOf(const TextureLevel& level, int x, int y) {
+    return dvec4(level.texels[static_cast<std::size_t>(y) * level.width + x]);
+}
+
+#include "shaders/shared/texture.glsl"
+
+static_assert(static_cast<int>(Wrap::kRepeat) == kWrapRepeat &&
+              static_cast<int>(Wrap::kMirroredRepeat) == kWrapMirrored &&
+              static_cast<int>(Wrap::kClampToEdge) == kWrapClamp &&
+              static_cast<int>(TexelFilter::kNearest) == kTexelNearest &&
+              static_cast<int>(TexelFilter::kLinear) == kTexelLinear);
+
+TextureLook lookOf(const Texture& texture, const MipPyramid& pyramid) {
+    return {static_cast<int>(texture.wrap_s),
+            static_cast<int>(texture.wrap_t),
+            static_cast<int>(texture.mag),
+            static_cast<int>(texture.min),
+            texture.mip ? static_cast<int>(*texture.mip) : kNoMips,
+            pyramid.levels(),
+            &pyramid};
+}
+
+}  // namespace
+}  // namespace edgewise::f64
+
 namespace edgewise {
 namespace {
 
@@ -56,54 +101,6 @@ void normalise(glm::vec4& texel) {
     if (length > 0.0) texel = glm::vec4(glm::vec3(0.5 * (normal / length) + 0.5), texel.a);
 }
 
-/// One period of the wrapped coordinate: [0, 1) repeated, [0, 2) mirrored, clamped a texel or more outside
-/// [0, 1].
-double reduce(double u, Wrap wrap) {
-    if (wrap == Wrap::kRepeat) return u - std::floor(u);
-    if (wrap == Wrap::kMirroredRepeat) return u - 2.0 * std::floor(0.5 * u);
-    return std::clamp(u, -1.0, 2.0);
-}
-
-/// The texel that index i, at most a few periods off, means.
-int wrapIndex(int i, int size, Wrap wrap) {
-    if (wrap == Wrap::kClampToEdge) return std::clamp(i, 0, size - 1);
-    const int period = wrap == Wrap::kRepeat ? size : 2 * size;
-    i = ((i % period) + period) % period;
-    return i < size ? i : period - 1 - i;
-}
-
-struct LevelSampler {
-    const Texture& texture;
-    const Image& image;
-
-    glm::dvec4 texel(int x, int y) const {
-        x = wrapIndex(x, image.width, texture.wrap_s);
-        y = wrapIndex(y, image.height, texture.wrap_t);
-        return glm::dvec4(image.texels[std::size_t(y) * image.width + x]);
-    }
-
-    glm::dvec4 at(glm::dvec2 uv, TexelFilter filter) const {
-        const double x = reduce(uv.x, texture.wrap_s) * image.width,
-                     y = reduce(uv.y, texture.wrap_t) * image.height;
-        if (filter == TexelFilter::kNearest)
-            return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
-        const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-        const double fx = (x - 0.5) - left, fy = (y - 0.5) - top;
-        const int i = static_cast<int>(left), j = static_cast<int>(top);
-        const glm::dvec4 upper = texel(i, j) * (1.0 - fx) + texel(i + 1, j) * fx;
-        const glm::dvec4 lower = texel(i, j + 1) * (1.0 - fx) + texel(i + 1, j + 1) * fx;
-        return upper * (1.0 - fy) + lower * fy;
-    }
-};
-
-/// In x87 arithmetic: the library's double log2 has variants by instruction set that differ in the last bit.
-double levelOf(const Image& image, const TextureFootprint& footprint) {
-    const glm::dvec2 size(image.width, image.height);
-    const double longer =
-        std::max(glm::length(footprint.duv_dx * size), glm::length(footprint.duv_dy * size));
-    return longer > 1.0 ? static_cast<double>(std::log2(static_cast<long double>(longer))) : 0.0;
-}
-
 }  // namespace
 
 MipPyramid::MipPyramid(const Image& image, TexelKind kind) : base_(&image) {
@@ -123,19 +120,7 @@ MipPyramid::MipPyramid(const Image& image, TexelKind kind) : base_(&image) {
 glm::dvec4 sampleTexture(const Texture& texture, const MipPyramid& pyramid, glm::dvec2 uv,
                          const TextureFootprint& footprint) {
     if (pyramid.uniform()) return *pyramid.uniform();
-    auto at = [&](int level, TexelFilter filter) {
-        return LevelSampler{texture, pyramid.level(level)}.at(uv, filter);
-    };
-    const double level = levelOf(pyramid.level(0), footprint);
-    if (!(level > 0.0)) return at(0, texture.mag);
-    if (!texture.mip) return at(0, texture.min);
-    const double last = pyramid.levels() - 1, bounded = std::min(level, last);
-    if (*texture.mip == TexelFilter::kNearest)
-        return at(static_cast<int>(std::ceil(bounded - 0.5)), texture.min);
-    const int finer = static_cast<int>(std::floor(bounded));
-    const double t = bounded - finer;
-    if (t == 0.0) return at(finer, texture.min);
-    return at(finer, texture.min) * (1.0 - t) + at(finer + 1, texture.min) * t;
+    return f64::sampleLevels(f64::lookOf(texture, pyramid), uv, footprint.duv_dx, footprint.duv_dy);
 }
 
 }  // namespace edgewise

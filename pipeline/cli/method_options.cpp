@@ -91,6 +91,7 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
     RenderOptions options;
     requireOneOf("--device", arguments.device, kDevices);
     requireOneOf("--precision", arguments.precision, kPrecisions);
+    options.device = deviceChoice(arguments.device);
     options.shading = readShading(arguments.shading);
     for (const std::string& name : arguments.no_skip) {
         requireOneOf("--no-skip", name, noSkipNames());
@@ -115,8 +116,7 @@ ThreadLimit::ThreadLimit(const RenderOptions& options) {
 }
 
 void checkAbilities(const MethodArguments& arguments, const MethodSpec& method) {
-    if (method.parameter("device", arguments.device) == "vulkan")
-        throw FailureError("device vulkan", "this build has no Vulkan");
+    decideDevice(method, readMethodOptions(arguments));
     if (arguments.precision != "fp64")
         throw FailureError("--precision " + arguments.precision, "this build computes weights in fp64 only");
 }

@@ -16,6 +16,7 @@
 #include "pipeline/aov_names.h"
 #include "pipeline/film.h"
 #include "pipeline/image_buffer.h"
+#include "pipeline/methods/device_choice.h"
 #include "pipeline/progress.h"
 #include "pipeline/scene.h"
 
@@ -36,7 +37,8 @@ struct ShadingChoice {
 
 struct RenderOptions {
     glm::dvec3 background{0.0};  ///< linear
-    int threads = 0;             ///< 0: all
+    DeviceChoice device = DeviceChoice::kAuto;
+    int threads = 0;  ///< 0: all
     std::size_t memory_mib = 1024;
     ShadingChoice shading;
     std::uint64_t seed = 0;
@@ -97,6 +99,10 @@ struct MethodSpec {
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
 MethodSpec parseMethod(std::string_view typed);
 
+/// Where the method runs: its own device= over options.device. Throws FailureError where Vulkan is asked for
+/// and there is none.
+DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options);
+
 /// Throws InputError for what a method cannot do, FailureError where a limit is met, Interrupted when
 /// cancelled.
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
@@ -114,6 +120,8 @@ struct MethodEntry {
     std::map<std::string, std::vector<std::string>>
         choices;  ///< parameter -> what it may be; device is added to all
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
+    MethodResult (*run_vulkan)(const MethodSpec&,
+                               const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone
 };
 
 }  // namespace edgewise

@@ -12,6 +12,12 @@
 namespace edgewise {
 namespace {
 
+#ifdef EDGEWISE_HAS_VULKAN
+constexpr auto kNsaaVulkan = runNsaaVulkan;
+#else
+constexpr decltype(MethodEntry::run) kNsaaVulkan = nullptr;
+#endif
+
 const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
 
 const MethodEntry* findMethod(std::string_view name) {
@@ -102,7 +108,8 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .choices = {{"visibility", {"slab"}}},
-         .run = runNsaa},
+         .run = runNsaa,
+         .run_vulkan = kNsaaVulkan},
         {.name = "ssaa",
          .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
          .number = MethodEntry::Number::kRequired,
@@ -126,14 +133,23 @@ MethodSpec parseMethod(std::string_view typed) {
     return spec;
 }
 
+DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
+    const auto own = spec.parameters.find("device");
+    const DeviceChoice choice = own == spec.parameters.end() ? options.device : deviceChoice(own->second);
+    return decideDevice(choice, requireMethod(spec.typed, spec.name).run_vulkan != nullptr);
+}
+
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     if (!spec.composed.empty())
         fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
+    const bool vulkan = decideDevice(spec, input.options).vulkan;
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
-    arena.execute([&] { result = entry.run(spec, input); });
-    if (spec.parameter("device", "auto") == "vulkan" && result.device != "vulkan")
+    arena.execute([&] { result = (vulkan ? entry.run_vulkan : entry.run)(spec, input); });
+    const bool asked =
+        input.options.device == DeviceChoice::kVulkan || spec.parameter("device", "auto") == "vulkan";
+    if (asked && result.device != "vulkan")
         result.notes.push_back(fmt::format("'{}' has no Vulkan form here and ran on the CPU", spec.name));
     return result;
 }

@@ -10,6 +10,7 @@ const std::vector<MethodEntry>& methodRegistry();
 MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
 MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
+MethodResult runNsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 
 }  // namespace edgewise

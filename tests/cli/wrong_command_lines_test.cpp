@@ -1,6 +1,7 @@
 // What is wrong is said in one line, with the contract's exit status, and leaves nothing behind.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <ostream>
 
 #include "tests/cli/run_program.h"
@@ -45,6 +46,27 @@ TEST_P(WrongCommandLine, IsOneLineAndAStatus) {
     EXPECT_TRUE(run.err.starts_with("edgewise: error: ")) << run.err;
     EXPECT_NE(run.err.find(GetParam().fragment), std::string::npos) << run.err;
     EXPECT_EQ(folder.names(), before);
+}
+
+/// No driver is found while it lives.
+class NoDrivers {
+  public:
+    NoDrivers() { ::setenv("VK_ICD_FILENAMES", "/nonexistent", 1); }
+    ~NoDrivers() { ::unsetenv("VK_ICD_FILENAMES"); }
+};
+
+TEST(DeviceOption, WithoutADriverVulkanFailsAndAutoTakesTheCpu) {
+    const NoDrivers none;
+    const TemporaryFolder folder;
+    const Arguments render{"render", "zone-plate", "-o", "a.exr", "--size", "8x8", "--quiet"};
+    Arguments on_vulkan = render;
+    on_vulkan.insert(on_vulkan.end(), {"--device", "vulkan"});
+    const ProgramRun asked = runProgram(on_vulkan, folder.path());
+    EXPECT_EQ(asked.status, 1);
+    EXPECT_NE(asked.err.find("edgewise: error: device vulkan: "), std::string::npos) << asked.err;
+    EXPECT_TRUE(folder.names().empty());
+    const ProgramRun automatic = runProgram(render, folder.path());
+    EXPECT_EQ(automatic.status, 0) << automatic.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, WrongCommandLine,
@@ -107,7 +129,6 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", "ssaa:x"}, "ssaa"},
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", ""}, "method"},
                     WrongCase{renderWith({"--device", "abacus"}), "--device"},
-                    WrongCase{renderWith({"--device", "vulkan"}), "Vulkan", 1},
                     WrongCase{renderWith({"--precision", "fp16"}), "--precision"},
                     WrongCase{renderWith({"--precision", "fp32"}), "fp64 only", 1},
                     WrongCase{renderWith({"--shading", "samples:5000"}), "--shading"},

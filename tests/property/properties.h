@@ -47,9 +47,11 @@ inline void PrintTo(const Property& property, std::ostream* out) {
 Outcome ownersAreTheOracles(const Trial& trial);
 /// The trial's kernel's weights of a few pixels are the oracle's 30 digits, within the same bound.
 Outcome weightsAreTheOracles(const Trial& trial);
-/// Weights sum to exactly 2^60, labels chain along the border, and positive kernels give no negative weight.
+/// Weights sum to exactly 2^60, labels chain along the border, and positive kernels give no weight below 0 by
+/// more than roundings and what visibility moves at shared vertices.
 Outcome weightsSumToOne(const Trial& trial);
-/// Moved by whole pixels the picture has the same bits.
+/// Moved by whole cells the picture has the same bits; by whole pixels it is the same but for roundings, for
+/// other cells may name another owner along a few roundings of their border. [E16]
 Outcome wholePixelsDoNotShow(const Trial& trial);
 /// A triangle cut in two at the middle of a side keeps its weights but for roundings.
 Outcome splittingATriangleDoesNotShow(const Trial& trial);
@@ -63,7 +65,8 @@ Outcome threadsAndCropsDoNotShow(const Trial& trial);
 Outcome coplanarTrianglesShareAPlane(const Trial& trial);
 /// The depth plane of a triangle has its corners' depths, but for the rounding of its three coefficients.
 Outcome planesPassThroughTheirCorners(const Trial& trial);
-/// What the planner leaves out changes weights by roundings only.
+/// What the planner leaves out changes weights by roundings only, and by what visibility moves at shared
+/// vertices.
 Outcome omissionsDoNotShow(const Trial& trial);
 
 const std::vector<Property>& allProperties();

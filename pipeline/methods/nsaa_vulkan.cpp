@@ -1,0 +1,258 @@
+// nsaa on a Vulkan device: gather, visibility, shade and blend there; the weights between them on the host,
+// with the CPU's code. Every stage has the CPU's bits, and so has the picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "pipeline/composite.h"
+#include "pipeline/methods/nsaa_cpu.h"
+#include "pipeline/methods/registry.h"
+#include "pipeline/vulkan/blend.h"
+#include "pipeline/vulkan/gather.h"
+#include "pipeline/vulkan/shade.h"
+#include "pipeline/vulkan/visibility.h"
+
+namespace edgewise {
+namespace {
+
+using namespace vulkan;
+
+/// The rows that are shaded at once, whole weight tiles high: what the device holds of a band beside its map.
+constexpr int kStripRows = 4 * kWeightTilePx;
+
+/// Two tables of four doubles an entry would not be bound by a device of 128 MiB beyond this.
+constexpr std::size_t kMostEntries = 4'000'000;
+
+/// The entries of a strip in the order of its pixels.
+struct StripEntries {
+    std::vector<std::uint32_t> offsets{0}, owners, point_ends;
+    std::vector<FixedWeight> weights;
+    std::vector<glm::dvec2> points;
+
+    void add(const WeightTile& tile, std::size_t pixel) {
+        for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e) {
+            owners.push_back(tile.entries[e].owner);
+            weights.push_back(tile.entries[e].weight);
+            const auto of = tile.points.of(e);
+            points.insert(points.end(), of.begin(), of.end());
+            point_ends.push_back(static_cast<std::uint32_t>(points.size()));
+        }
+        offsets.push_back(static_cast<std::uint32_t>(owners.size()));
+    }
+};
+
+bool hasPoints(const NsaaFrame& frame) {
+    const ShadingMode mode = frame.in.options.shading.mode;
+    return mode == ShadingMode::kCentroid || mode == ShadingMode::kSamples;
+}
+
+ShadeTables tablesOf(const NsaaFrame& frame) {
+    return makeShadeTables({frame.in.scene, frame.in.camera, frame.in.film, frame.screen, frame.pieces,
+                            frame.shading, frame.plan.constant, frame.in.options.background,
+                            hasPoints(frame)});
+}
+
+class VulkanStages : public CpuStages {
+  public:
+    explicit VulkanStages(NsaaFrame& frame)
+        : triangles_(bufferOf(device_, "triangles", frame.screen.triangles)),
+          planes_(bufferOf(device_, "planes", frame.screen.planes)),
+          gather_(device_),
+          visibility_(device_) {
+        const ShadeTables tables = tablesOf(frame);
+        why_not_shaded_ = whyNotShaded(tables, device_.traits());
+        if (!why_not_shaded_) shade_.emplace(device_, tables), blend_.emplace(device_), uses_ = tables.uses;
+        frame.result.device = "vulkan";
+        frame.result.setup_seconds = frame.watch.lap();
+    }
+
+    VisibleMap visibleMap(NsaaFrame& frame, const CellGrid& grid) override {
+        PassGraph graph(device_);
+        const Resource triangles = graph.input("triangles", triangles_),
+                       planes = graph.input("planes", planes_);
+        const DeviceLists lists = gather_.addTo(graph, triangles, frame.screen.triangles.size(), grid);
+        const MapResources map = visibility_.addTo(graph, triangles, planes, lists.offsets, lists.ids, [&] {
+            return VisibilityInput{frame.screen, grid, frame.plan.visibility.cell};
+        });
+        graph.run({map.segments, map.lines, map.row_offsets, map.row_owners});
+        if (frame.dump.active()) frame.dump.gather(grid, readBack(graph, lists, grid));
+        bookMap(frame, graph);
+        return visibility_.map();
+    }
+
+    void render(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
+                const PixelBox& band) override {
+        if (why_not_shaded_) return CpuStages::render(frame, map, owners, band);
+        for (int y = band.y0; y < band.y1; y += kStripRows) {
+            const PixelBox strip{band.x0, y, band.x1, std::min(y + kStripRows, band.y1)};
+            tiles_.clear();
+            CpuStages::render(frame, map, owners, strip);
+            blendStrip(frame, owners.alike.stacks, strip);
+            frame.bookSeconds("blend", frame.watch.lap());
+        }
+    }
+
+    void report(MethodResult& result) const {
+        result.counts["device_leaves"] = report_.leaves;
+        result.counts["cells_handed_back"] = report_.handed;
+        result.counts["entries_handed_back"] = handed_entries_;
+        result.notes.push_back("gather, visibility, shade and blend on " + device_.traits().name +
+                               ", weights on the CPU");
+        if (why_not_shaded_) result.notes.push_back("shaded on the CPU: " + *why_not_shaded_);
+    }
+
+  protected:
+    void finishTile(NsaaFrame& frame, const BandOwners& owners, WeightTile& tile) override {
+        if (why_not_shaded_) return CpuStages::finishTile(frame, owners, tile);
+        const std::scoped_lock lock(tiles_mutex_);
+        tiles_.push_back(std::move(tile));
+    }
+
+  private:
+    static IdLists readBack(const PassGraph& graph, const DeviceLists& lists, const CellGrid& grid) {
+        IdLists out;
+        const auto offsets = graph[lists.offsets].view<std::uint32_t>(grid.size() + 1);
+        out.offsets.assign(offsets.begin(), offsets.end());
+        const auto ids = graph[lists.ids].view<std::uint32_t>(offsets.back());
+        out.ids.assign(ids.begin(), ids.end());
+        return out;
+    }
+
+    /// The wall's time, in the proportion of what gather's and visibility's passes report.
+    void bookMap(NsaaFrame& frame, const PassGraph& graph) {
+        double gathering = 0.0;
+        for (const PassTime& pass : graph.times())
+            if (pass.name.starts_with("gather")) gathering += pass.seconds;
+        const double wall = frame.watch.lap();
+        gathering = std::min(gathering, wall);
+        frame.bookSeconds("gather", gathering);
+        frame.bookSeconds("visibility", wall - gathering);
+        const VisibilityReport& made = visibility_.report();
+        frame.visibility_counts.add(made.counts);
+        report_.leaves += made.leaves, report_.handed += made.handed;
+    }
+
+    StripEntries joined(const PixelBox& strip) const {
+        const int columns = (strip.width() + kWeightTilePx - 1) / kWeightTilePx;
+        const auto slot = [&](int x, int y) {
+            return static_cast<std::size_t>((y - strip.y0) / kWeightTilePx * columns +
+                                            (x - strip.x0) / kWeightTilePx);
+        };
+        std::vector<const WeightTile*> at(tiles_.size());
+        for (const WeightTile& tile : tiles_) at[slot(tile.box.x0, tile.box.y0)] = &tile;
+        StripEntries entries;
+        for (int y = strip.y0; y < strip.y1; ++y)
+            for (int x = strip.x0; x < strip.x1; ++x) {
+                const WeightTile& tile = *at[slot(x, y)];
+                entries.add(
+                    tile, static_cast<std::size_t>((y - tile.box.y0) * tile.box.width() + (x - tile.box.x0)));
+            }
+        return entries;
+    }
+
+    void blendStrip(NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& strip) {
+        const StripEntries strip_entries = joined(strip);
+        if (strip_entries.owners.size() > kMostEntries) {
+            handed_entries_ += strip_entries.owners.size();
+            for (const WeightTile& tile : tiles_) frame.blendTile(tile, stacks);
+            return;
+        }
+        requireShadableEntries(stacks, strip, strip_entries);
+        const StackTables layers(stacks);
+        const Buffer offsets = bufferOf(device_, "offsets", strip_entries.offsets),
+                     owners = bufferOf(device_, "owners", strip_entries.owners),
+                     weights = bufferOf(device_, "weights", strip_entries.weights),
+                     first = bufferOf(device_, "stacks", layers.first),
+                     list = bufferOf(device_, "layers", layers.layers),
+                     ends = bufferOf(device_, "point ends", strip_entries.point_ends),
+                     points = bufferOf(device_, "points", strip_entries.points);
+        PassGraph graph(device_);
+        ShadeEntries entries{graph.input("triangles", triangles_),
+                             graph.input("offsets", offsets),
+                             graph.input("owners", owners),
+                             {},
+                             {},
+                             {},
+                             {},
+                             [&] { return strip; },
+                             [&] { return strip_entries.owners.size(); }};
+        if (uses_ & kUsesStacks)
+            entries.stack_first = graph.input("stacks", first),
+            entries.stack_layers = graph.input("layers", list);
+        if (hasPoints(frame))
+            entries.point_ends = graph.input("point ends", ends),
+            entries.points = graph.input("points", points);
+        const Resource shades = shade_->addTo(graph, entries, [&](std::size_t e) {
+            return shadeOnHost(frame, stacks, strip, strip_entries, e);
+        });
+        const BlendedPixels out =
+            blend_->addTo(graph, {entries.offsets, graph.input("weights", weights), shades, entries.box});
+        graph.run({out.rgba, out.edge});
+        handed_entries_ += shade_->handedBack();
+        store(graph, out, strip, frame.result.image);
+    }
+
+    /// The device composites what it is given; the limit is asked here.
+    void requireShadableEntries(const LayerStacks& stacks, const PixelBox& strip,
+                                const StripEntries& entries) const {
+        if (!(uses_ & kUsesStacks)) return;
+        for (std::size_t p = 0; p + 1 < entries.offsets.size(); ++p)
+            for (std::size_t e = entries.offsets[p]; e < entries.offsets[p + 1]; ++e)
+                if (isStack(entries.owners[e]))
+                    requireShadable(stacks.layersOf(entries.owners[e]), pixelOf(strip, p));
+    }
+
+    static glm::dvec2 pixelOf(const PixelBox& strip, std::size_t p) {
+        const auto width = static_cast<std::size_t>(strip.width());
+        return {strip.x0 + static_cast<int>(p % width) + 0.5, strip.y0 + static_cast<int>(p / width) + 0.5};
+    }
+
+    static Shade shadeOnHost(const NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& strip,
+                             const StripEntries& entries, std::size_t e) {
+        const auto after = std::upper_bound(entries.offsets.begin(), entries.offsets.end(), e);
+        const auto pixel = static_cast<std::size_t>(after - entries.offsets.begin()) - 1;
+        const glm::dvec2 sample = pixelOf(strip, pixel) + frame.offset();
+        const std::size_t begin = e == 0 ? 0 : entries.point_ends[e - 1];
+        return frame.shade(stacks.layersOf(entries.owners[e]), sample,
+                           std::span(entries.points).subspan(begin, entries.point_ends[e] - begin));
+    }
+
+    static void store(const PassGraph& graph, const BlendedPixels& from, const PixelBox& strip,
+                      ImageBuffer& image) {
+        const std::size_t count = static_cast<std::size_t>(strip.width()) * strip.height();
+        const auto rgba = graph[from.rgba].view<glm::dvec4>(count);
+        const auto edge = graph[from.edge].view<float>(count);
+        std::size_t p = 0;
+        for (int y = strip.y0; y < strip.y1; ++y)
+            for (int x = strip.x0; x < strip.x1; ++x, ++p) {
+                const std::size_t i = image.index(x, y);
+                image.rgba[i] = rgba[p], image.edge[i] = edge[p];
+            }
+    }
+
+    Device device_;
+    Buffer triangles_, planes_;
+    Gather gather_;
+    VisibilityPasses visibility_;
+    std::optional<std::string> why_not_shaded_;
+    std::optional<ShadePass> shade_;
+    std::optional<BlendPass> blend_;
+    std::uint32_t uses_ = 0;
+    std::mutex tiles_mutex_;
+    std::vector<WeightTile> tiles_;
+    VisibilityReport report_;
+    std::size_t handed_entries_ = 0;
+};
+
+}  // namespace
+
+MethodResult runNsaaVulkan(const MethodSpec&, const MethodInput& input) {
+    NsaaFrame frame(input);
+    VulkanStages stages(frame);
+    MethodResult result = frame.render(stages);
+    stages.report(result);
+    return result;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,69 @@
+#include "pipeline/vulkan/blend.h"
+
+#include <cmath>
+
+#include "pipeline/image_buffer.h"
+#include "pipeline/shading_text.h"
+
+namespace edgewise::vulkan {
+namespace {
+
+/// lavapipe stops a loop, without a word, after 65535 turns.
+constexpr std::uint32_t kMostEntries = 65000;
+
+std::size_t pixelsOf(const PixelBox& box) {
+    return static_cast<std::size_t>(box.width()) * box.height();
+}
+
+}  // namespace
+
+BlendPass::BlendPass(const Device& device)
+    : device_(device),
+      blend_(device, {"blend.vert", "", "blend.frag"}, kBlendBindings, sizeof(BlendPush), {},
+             {kMostEntries}) {}
+
+BlendedPixels BlendPass::addTo(PassGraph& graph, const BlendEntries& entries) {
+    const auto box = entries.box;
+    const BlendedPixels out{graph.buffer("rgba", [box] { return pixelsOf(box()) * sizeof(glm::dvec4); }),
+                            graph.buffer("edge", [box] { return pixelsOf(box()) * sizeof(float); })};
+    graph.add("blend", {.reads = {entries.offsets, entries.weights, entries.shades},
+                        .writes = {out.rgba, out.edge},
+                        .record = [=, this](const PassContext& pass) { record(pass, entries, out); }});
+    graph.add("blend on the host", {.reads = {entries.offsets, entries.weights, entries.shades},
+                                    .writes = {out.rgba, out.edge},
+                                    .host = [=, this](const PassGraph& g) { finish(g, entries, out); }});
+    return out;
+}
+
+void BlendPass::record(const PassContext& pass, const BlendEntries& entries, const BlendedPixels& out) {
+    const PixelBox box = entries.box();
+    const auto width = static_cast<std::uint32_t>(box.width()),
+               height = static_cast<std::uint32_t>(box.height());
+    if (!target_ || target_->size() != vk::Extent2D(width, height))
+        target_.emplace(device_, "blended pixels", TargetFormat{}, width, height);
+    blend_.forgetSets();
+    blend_.draw(
+        pass.commands, *target_,
+        {pass[entries.offsets], pass[entries.weights], pass[entries.shades], pass[out.rgba], pass[out.edge]},
+        PushBytes(BlendPush{kEdgeContrast, width, 0}), {.vertices = 3});
+}
+
+/// As pipeline/blend sums.
+void BlendPass::finish(const PassGraph& graph, const BlendEntries& entries, const BlendedPixels& out) {
+    const std::size_t count = pixelsOf(entries.box());
+    const auto offsets = graph[entries.offsets].view<std::uint32_t>(count + 1);
+    const auto weights = graph[entries.weights].all<std::int64_t>();
+    const auto shades = graph[entries.shades].all<glm::dvec4>();
+    handed_back_ = 0;
+    for (std::size_t p = 0; p < count; ++p) {
+        if (offsets[p + 1] - offsets[p] <= kMostEntries) continue;
+        ++handed_back_;
+        f64::PixelSum sum{glm::dvec3(0.0), 0, 0.0, glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+        for (std::uint32_t e = offsets[p]; e < offsets[p + 1]; ++e)
+            sum = f64::withOwner(sum, weights[e], glm::dvec3(shades[e]), shades[e].a);
+        graph[out.rgba].view<glm::dvec4>(count)[p] = glm::dvec4(sum.color, f64::alphaOf(sum));
+        graph[out.edge].view<float>(count)[p] = f64::contrastOf(sum) > kEdgeContrast ? 1.0f : 0.0f;
+    }
+}
+
+}  // namespace edgewise::vulkan

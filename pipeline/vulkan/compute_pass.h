@@ -1,0 +1,46 @@
+// A compute shader with its bindings: storage buffers, then images that it reads, and push constants.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "pipeline/vulkan/bindings.h"
+
+namespace edgewise::vulkan {
+
+/// Workgroups of a dispatch; each dimension is at most 65535.
+struct Groups {
+    std::uint32_t x, y = 1;
+    /// As many as cover `count` invocations, `size` each.
+    static Groups covering(std::size_t count, std::uint32_t size) {
+        return {static_cast<std::uint32_t>((count + size - 1) / size)};
+    }
+};
+
+class ComputePass {
+  public:
+    ComputePass(const Device& device, std::string_view shader, std::size_t buffer_count,
+                std::size_t push_bytes = 0, const Specialization& constants = {},
+                std::size_t image_count = 0);
+
+    using Range = BufferRange;
+    void dispatch(const vk::raii::CommandBuffer& commands, const std::vector<Range>& buffers, Groups groups) {
+        record(commands, buffers, {}, PushBytes(), groups);
+    }
+    template <class Push>
+    void dispatch(const vk::raii::CommandBuffer& commands, const std::vector<Range>& buffers, Groups groups,
+                  const Push& push) {
+        record(commands, buffers, {}, PushBytes(push), groups);
+    }
+    void record(const vk::raii::CommandBuffer& commands, const std::vector<Range>& buffers,
+                const std::vector<vk::ImageView>& images, const PushBytes& push, Groups groups);
+
+    /// Sets are made anew after this; call it when nothing recorded is pending.
+    void forgetSets() { bindings_.forgetSets(); }
+
+  private:
+    Bindings bindings_;
+    vk::raii::Pipeline pipeline_;
+};
+
+}  // namespace edgewise::vulkan

@@ -1,0 +1,94 @@
+#include "pipeline/vulkan/shade.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace edgewise::vulkan {
+namespace {
+
+constexpr std::uint32_t kGroupSize = 64, kMostGroups = 65535;
+
+/// lavapipe stops a loop, without a word, when the loops of the invocations that it runs together have taken
+/// 65535 turns; those are 4, 8 or 16, each at its own pace in the worst case.
+constexpr std::uint32_t kMostTurns = 65535 / 16;
+
+Specialization constantsOf(const ShadeTables& tables) {
+    return {tables.uses, static_cast<std::uint32_t>(std::max<std::size_t>(tables.banks.size(), 1)),
+            kMostTurns};
+}
+
+}  // namespace
+
+ShadePass::ShadePass(const Device& device, const ShadeTables& tables)
+    : uses_(tables.uses),
+      may_hand_back_((tables.uses & (kUsesStacks | kUsesPoints)) != 0 || tables.most_turns > kMostTurns / 2),
+      scene_(device, tables),
+      shade_(device, "shade.comp", kShadeBindings, sizeof(ShadePush), constantsOf(tables)) {}
+
+Resource ShadePass::addTo(PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host) {
+    assert(!(uses_ & kUsesStacks) || entries.stack_first);
+    assert(!(uses_ & kUsesPoints) || entries.point_ends);
+    const Resource colors =
+                       graph.buffer("shades", [entries] { return entries.count() * 4 * sizeof(double); }),
+                   status = graph.buffer("shades handed back", [] { return sizeof(std::uint32_t); });
+    std::vector<Resource> reads{entries.triangles, entries.offsets, entries.owners};
+    for (const auto& more : {entries.stack_first, entries.stack_layers, entries.point_ends, entries.points})
+        if (more) reads.push_back(*more);
+    graph.add("shade",
+              {.reads = reads, .writes = {colors, status}, .record = [=, this](const PassContext& pass) {
+                   record(pass, entries, colors, status);
+               }});
+    if (may_hand_back_)
+        graph.add("shade on the host",
+                  {.reads = {status}, .writes = {colors}, .host = [=, this](const PassGraph& g) {
+                       finish(g, entries, on_host, colors, status);
+                   }});
+    return colors;
+}
+
+void ShadePass::record(const PassContext& pass, const ShadeEntries& entries, Resource colors,
+                       Resource status) {
+    std::vector<BufferRange> buffers;
+    for (int binding = 0; binding < kShadeBindings; ++binding) buffers.emplace_back(scene_.at(binding));
+    const auto bind = [&](int binding, std::optional<Resource> resource) {
+        if (resource) buffers[binding] = pass[*resource];
+    };
+    bind(kShadeOffsetsBinding, entries.offsets), bind(kShadeOwnersBinding, entries.owners);
+    bind(kShadeColorsBinding, colors), bind(kShadeStatusBinding, status);
+    bind(kTrianglesBinding, entries.triangles);
+    bind(kStackFirstBinding, entries.stack_first), bind(kStackLayersBinding, entries.stack_layers);
+    bind(kPointEndsBinding, entries.point_ends), bind(kPointsBinding, entries.points);
+
+    const PixelBox box = entries.box();
+    const auto count = static_cast<std::uint32_t>(entries.count());
+    const std::uint32_t groups = Groups::covering(count, kGroupSize).x,
+                        columns = std::min(groups, kMostGroups);
+    const ShadePush push{box.x0,
+                         box.y0,
+                         static_cast<std::uint32_t>(box.width()),
+                         static_cast<std::uint32_t>(box.width() * box.height()),
+                         count,
+                         columns * kGroupSize};
+    pass.commands.fillBuffer(pass[status].handle(), 0, sizeof(std::uint32_t), 0);
+    const vk::MemoryBarrier filled(vk::AccessFlagBits::eTransferWrite,
+                                   vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
+    pass.commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer,
+                                  vk::PipelineStageFlagBits::eComputeShader, {}, filled, {}, {});
+    shade_.forgetSets();
+    shade_.dispatch(pass.commands, buffers, {columns, columns == 0 ? 0 : (groups + columns - 1) / columns},
+                    push);
+}
+
+void ShadePass::finish(const PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host,
+                       Resource colors, Resource status) {
+    handed_back_ = graph[status].view<std::uint32_t>(1)[0];
+    if (handed_back_ == 0) return;
+    const auto shades = graph[colors].view<glm::dvec4>(entries.count());
+    for (std::size_t e = 0; e < shades.size(); ++e) {
+        if (shades[e].a >= 0.0) continue;
+        const Shade shade = on_host(e);
+        shades[e] = glm::dvec4(shade.color, shade.alpha);
+    }
+}
+
+}  // namespace edgewise::vulkan

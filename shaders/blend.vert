@@ -1,0 +1,3 @@
+#version 460
+// A triangle over the whole target.
+void main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.0, 1.0); }

@@ -1,0 +1,17 @@
+// Names of lines for sorting: equal for the same line wherever it was met. analytic/carrier.h: lineKey.
+
+EDGEWISE_FN uint64_t mixed(uint64_t h, uint64_t v) {
+    uint64_t m = (h ^ v) * mixFactor();
+    return m ^ (m >> 29);
+}
+EDGEWISE_FN uint64_t lineKeyOf(EDGEWISE_IN(Carrier) line) {
+    if (!isEdge(line)) return mixed(mixed(uint64_t(1), uint64_t(line.ref.i)), uint64_t(line.ref.j));
+    uint64_t h = mixed(uint64_t(2), bitsOf(line.a.y + EDGEWISE_REAL(0.0)));
+    if (line.a.y == line.b.y) return h;
+    h = mixed(h, bitsOf(line.a.x + EDGEWISE_REAL(0.0)));
+    h = mixed(h, bitsOf(line.b.y + EDGEWISE_REAL(0.0)));
+    return mixed(h, bitsOf(line.b.x + EDGEWISE_REAL(0.0)));
+}
+EDGEWISE_FN uint64_t closingKeyOf(FineCoordinate y) {
+    return mixed(mixed(uint64_t(3), bitsOf(y.grid + EDGEWISE_REAL(0.0))), bitsOf(y.rest + EDGEWISE_REAL(0.0)));
+}
