@@ -1,5 +1,5 @@
-# cmake -DIN=FILE -DOUT=FILE -DPRECISION=fp64|fp32|"" -P: one text for glslang. `#include "FILE"`, once each, relative to
-# the shaders folder; EDGEWISE_REAL(number) becomes a literal of the precision, since glslang joins no tokens.
+# cmake -DIN=FILE -DOUT=FILE -P: one text for glslang. `#include "FILE"`, once each, relative to the shaders folder;
+# EDGEWISE_REAL(number) becomes a double's literal, since glslang joins no tokens.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(folder ${IN} DIRECTORY)
 
@@ -31,10 +31,5 @@ macro(assemble file result)
 endmacro()
 
 assemble(${IN} shader)
-if(PRECISION STREQUAL "fp32")
-  string(REPLACE "#version 460\n" "#version 460\n#define EDGEWISE_FP32\n" shader "${shader}")
-  string(REGEX REPLACE "EDGEWISE_REAL\\(([-+.0-9a-fA-Fe]+)\\)" "\\1f" shader "${shader}")
-else()
-  string(REGEX REPLACE "EDGEWISE_REAL\\(([-+.0-9a-fA-Fe]+)\\)" "\\1lf" shader "${shader}")
-endif()
+string(REGEX REPLACE "EDGEWISE_REAL\\(([-+.0-9a-fA-Fe]+)\\)" "\\1lf" shader "${shader}")
 file(WRITE ${OUT} "${shader}")

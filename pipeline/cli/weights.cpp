@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,8 @@ void weights(const WeightsArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const RenderOptions options = readMethodOptions(arguments.making);
     checkAbilities(arguments.making, parseMethod("nsaa"));
+    if (options.device == DeviceChoice::kVulkan)
+        spdlog::warn("'weights' has no Vulkan form here and ran on the CPU");
     const ThreadLimit threads(options);
     ProgressBar quiet(false, interruptFlag());
     const Picture picture = loadPicture(arguments.picture, quiet);

@@ -143,14 +143,14 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     if (!spec.composed.empty())
         fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
-    const bool vulkan = decideDevice(spec, input.options).vulkan;
+    const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
-    arena.execute([&] { result = (vulkan ? entry.run_vulkan : entry.run)(spec, input); });
+    arena.execute([&] { result = (decision.vulkan ? entry.run_vulkan : entry.run)(spec, input); });
     const bool asked =
         input.options.device == DeviceChoice::kVulkan || spec.parameter("device", "auto") == "vulkan";
-    if (asked && result.device != "vulkan")
-        result.notes.push_back(fmt::format("'{}' has no Vulkan form here and ran on the CPU", spec.name));
+    if (asked && !decision.vulkan)
+        result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", spec.name, decision.why));
     return result;
 }
 

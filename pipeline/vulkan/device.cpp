@@ -145,11 +145,13 @@ std::vector<DeviceTraits> listDevices() {
 }
 
 std::optional<std::string> whatIsMissing(const DeviceTraits& traits) {
-    std::vector<const char*> missing;
+    std::vector<std::string> missing;
     if (!traits.fp64) missing.push_back("64-bit floats");
     if (!traits.int64) missing.push_back("64-bit integers");
     if (!traits.int64_atomics) missing.push_back("64-bit atomics");
     if (!traits.fragment_stores) missing.push_back("stores from fragments");
+    if (traits.max_stage_buffers < kMostBindings)
+        missing.push_back(fmt::format("room for {} storage buffers a shader", kMostBindings));
     if (missing.empty()) return std::nullopt;
     return fmt::format("{} has no {}", traits.name, fmt::join(missing, ", "));
 }

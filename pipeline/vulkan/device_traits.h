@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct DeviceTraits {
     std::size_t max_heap_bytes = 0;       ///< of the largest device-local heap
     double tick_ns = 0.0;                 ///< of a timestamp; 0: the queue has none
 };
+
+/// Storage buffers that the pipeline's hungriest stage, visibility, binds.
+inline constexpr std::uint32_t kMostBindings = 24;
 
 /// All devices of this machine, real GPUs first; empty where there is no Vulkan.
 std::vector<DeviceTraits> listDevices();

@@ -7,8 +7,7 @@
 
 namespace edgewise::vulkan {
 
-/// SPIR-V of shaders/STEM.STAGE, named "STEM.STAGE", or "STEM.STAGE.fp64" and ".fp32" where the text is
-/// compiled for both. Asserts that there is one.
+/// SPIR-V of shaders/STEM.STAGE, by "STEM.STAGE". Asserts that there is one.
 std::span<const std::uint32_t> spirv(std::string_view name);
 
 }  // namespace edgewise::vulkan

@@ -10,6 +10,8 @@ namespace {
 
 #include "shaders/shared/visibility_layouts.glsl"
 
+static_assert(kVisBindings == kMostBindings);
+
 constexpr std::uint32_t kGroup = 64;
 constexpr std::size_t kLeafBatch = 512;  ///< leaves that have buffers at one time
 
@@ -58,8 +60,8 @@ class VisibilityPasses::Work {
   public:
     explicit Work(const Device& device);
 
-    void run(const PassGraph& graph, const Buffer& triangles, const Buffer& planes, const Buffer& offsets,
-             const Buffer& ids, const VisibilityInput& input);
+    void run(const Buffer& triangles, const Buffer& planes, const Buffer& offsets, const Buffer& ids,
+             const VisibilityInput& input);
     void upload(const PassGraph& graph, const MapResources& out) const;
 
     VisibilityReport report;
@@ -325,8 +327,8 @@ void VisibilityPasses::Work::merge(const VisibilityInput& input, CellOutput& out
     mergeRows(out.rows, input.grid.px.y0, input.grid.px.y1, map);
 }
 
-void VisibilityPasses::Work::run(const PassGraph&, const Buffer& triangles, const Buffer& planes,
-                                 const Buffer& offsets, const Buffer& ids, const VisibilityInput& input) {
+void VisibilityPasses::Work::run(const Buffer& triangles, const Buffer& planes, const Buffer& offsets,
+                                 const Buffer& ids, const VisibilityInput& input) {
     triangles_ = &triangles, planes_ = &planes, offsets_ = &offsets, ids_ = &ids;
     const VisibilityOptions& options = input.options;
     push_ = {};
@@ -396,7 +398,7 @@ MapResources VisibilityPasses::addTo(PassGraph& graph, Resource triangles, Resou
     graph.add(
         "visibility",
         {.reads = {triangles, planes, offsets, ids}, .writes = {swept}, .host = [=](const PassGraph& g) {
-             work->run(g, g[triangles], g[planes], g[offsets], g[ids], input());
+             work->run(g[triangles], g[planes], g[offsets], g[ids], input());
          }});
     const MapResources out{
         graph.buffer("segments", [work] { return work->map.segments.size() * sizeof(GpuSegment); }),

@@ -69,6 +69,20 @@ TEST(Stability, EveryCaseStaysWithinItsBound) {
     EXPECT_GE(expectStable(options).size(), 2 * stabilityCases().size());
 }
 
+/// A support of which the kernel fills a hundredth, or overfills it a hundredfold.
+TEST(Stability, SeparableGaussiansOfEverySigmaStayWithinTheirBound) {
+    StabilityOptions options;
+    options.filters = {makePrefilter("gaussian-separable", {}, {})};
+    options.scenes = 1;
+    options.cases = {"sigma"};
+    Progress progress;
+    Seen seen;
+    const auto rows = runStability(options, progress);
+    for (const StabilityRow& row : rows) expectWithinBounds(row, seen);
+    EXPECT_EQ(rows.size(), 5u);  // a decade each, 1e-2 to 1e2
+    EXPECT_GT(seen.weights, 10u);
+}
+
 /// Hours: every filter of every family, every difficulty, several scenes each.
 TEST(StabilityNightly, EveryFilterStaysWithinItsBound) {
     StabilityOptions options;

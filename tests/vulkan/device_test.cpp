@@ -72,7 +72,7 @@ TEST_F(SharedArithmetic, TheDeviceHasTheBitsOfTheHost) {
     const std::vector<double> x = hardInputs(2 * kPairs, kSeed);
     const Buffer inputs = bufferOf(device, "inputs", x);
     PassGraph graph(device);
-    ComputePass probe(device, "arithmetic_probe.comp.fp64", 2, sizeof(std::uint32_t));
+    ComputePass probe(device, "arithmetic_probe.comp", 2, sizeof(std::uint32_t));
     const Resource in = graph.input("inputs", inputs),
                    out = graph.buffer("results", [] { return kPairs * 8 * sizeof(double); });
     graph.add("probe",
