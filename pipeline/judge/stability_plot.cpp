@@ -9,7 +9,7 @@
 namespace edgewise::judge {
 namespace {
 
-constexpr double kWidth = 380, kHeight = 250, kLeft = 50, kRight = 12, kTop = 10, kBottom = 44;
+constexpr double kWidth = 380, kHeight = 250, kLeft = 60, kRight = 12, kTop = 10, kBottom = 44;
 constexpr double kInnerWidth = kWidth - kLeft - kRight, kInnerHeight = kHeight - kTop - kBottom;
 
 /// About six labels, however many decades.
