@@ -11,19 +11,18 @@
 
 namespace edgewise {
 
-namespace scalar {
-void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
-}
-namespace sse2 {
-void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
-}
+#define EDGEWISE_DECLARE_TERMS(isa)                                      \
+    namespace isa {                                                      \
+    void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);     \
+    }                                                                    \
+    namespace isa##_fp32 {                                               \
+        void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); \
+    }
+EDGEWISE_DECLARE_TERMS(scalar)
+EDGEWISE_DECLARE_TERMS(sse2)
 #if defined(EDGEWISE_HAS_AVX)
-namespace avx2 {
-void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
-}
-namespace avx512 {
-void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);
-}
+EDGEWISE_DECLARE_TERMS(avx2)
+EDGEWISE_DECLARE_TERMS(avx512)
 #endif
 
 namespace {
@@ -38,13 +37,13 @@ constexpr double kGaussianReach = 9.25;
 
 /// Nodes for pieces of up to `limit` sigmas: |F| errs by |h| L' / (4 pi sigma^2) times the mean's error, and
 /// |phi1(v + iw)| <= max(1, e^-v), so at |Im t| <= y it is at most e^max(0, (y^2 - h^2)/2). [E9]
-GaussRule pieceRule(double limit) {
+GaussRule pieceRule(double limit, double tolerance) {
     const double h_most = kGaussianReach;
     const auto growth = [=](double y) {
         // sup over h of h max(1, e^((y^2 - h^2)/2)): h <= reach, and h e^(-h^2/2) <= e^(-1/2)
         return std::max(h_most, std::exp((y * y - 1) / 2)) * limit / (4 * M_PI);
     };
-    return gaussRule(nodesNeeded(growth, limit, 0x1p-62));
+    return gaussRule(nodesNeeded(growth, limit, tolerance));
 }
 
 RuleView viewOf(const GaussRule& rule) {
@@ -65,18 +64,19 @@ QuadReal quadPhi1(QuadReal v) {
     return sum;
 }
 
-void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter) {
+void prepareGaussian(EdgeKernel& kernel, const Prefilter& filter, Precision precision) {
     LaneKernel& lanes = kernel.lanes;
-    lanes.form = TermForm::kGaussian;
+    lanes.form = kGaussianTerm;
     lanes.sigma = filter.sigma.value_or(filter.radius / 3.0);
     const QuadReal twice = 2 * QuadReal(lanes.sigma) * lanes.sigma;
     lanes.inverse_reach = rounded(1 / quadSqrt(twice));
     lanes.inner_radius = std::min(filter.radius, kGaussianReach * lanes.sigma);
     const QuadReal reach = lanes.inner_radius;
     lanes.scale = rounded(1 / (2 * quadPi() * reach * reach * quadPhi1(reach * reach / twice)));
+    const double tolerance = precision == Precision::kFp32 ? 0x1p-30 : 0x1p-62;
     constexpr double kLimits[kPieceRules] = {0.5, 1.0, kLongestPieceSigmas};
     for (int i = 0; i < kPieceRules; ++i) {
-        kernel.piece_rules[i] = pieceRule(kLimits[i]);
+        kernel.piece_rules[i] = pieceRule(kLimits[i], tolerance);
         lanes.piece_rules[i] = {kLimits[i], viewOf(kernel.piece_rules[i])};
     }
 }
@@ -88,7 +88,7 @@ void preparePoly(EdgeKernel& kernel, const Prefilter& filter) {
         integral += QuadReal(filter.poly[k]) / static_cast<int>(2 * k + 2);
     }
     kernel.poly_rule = gaussRule(static_cast<int>(filter.poly.size()));
-    kernel.lanes.form = TermForm::kPoly;
+    kernel.lanes.form = kPolyTerm;
     kernel.lanes.scale = rounded(1 / (2 * quadPi() * filter.radius * filter.radius * integral));
     kernel.lanes.poly = kernel.poly.data();
     kernel.lanes.poly_rule = viewOf(kernel.poly_rule);
@@ -96,26 +96,26 @@ void preparePoly(EdgeKernel& kernel, const Prefilter& filter) {
 
 void prepareStrip(EdgeKernel& kernel, const Prefilter& filter) {
     kernel.table = filter.table ? filter.table : std::make_shared<KernelTable>(makeKernelTable(filter));
-    kernel.lanes.form = TermForm::kStrip;
+    kernel.lanes.form = kStripTerm;
     kernel.lanes.table = viewOf(*kernel.table);
 }
 
 }  // namespace
 
-EdgeKernel::EdgeKernel(const Prefilter& filter) {
+EdgeKernel::EdgeKernel(const Prefilter& filter, Precision precision) {
     const QuadReal R2 = QuadReal(filter.radius) * filter.radius;
     lanes.radius = lanes.inner_radius = filter.radius;
     switch (filter.kind) {
         case KernelKind::kDisk:
-            lanes.form = TermForm::kDisk;
+            lanes.form = kDiskTerm;
             lanes.scale = rounded(1 / (2 * quadPi() * R2));
             return;
         case KernelKind::kCone:
-            lanes.form = TermForm::kCone;
+            lanes.form = kConeTerm;
             lanes.scale = rounded(3 / (quadPi() * R2));
             return;
         case KernelKind::kGaussian:
-            prepareGaussian(*this, filter);
+            prepareGaussian(*this, filter, precision);
             return;
         case KernelKind::kPoly:
             preparePoly(*this, filter);
@@ -125,28 +125,29 @@ EdgeKernel::EdgeKernel(const Prefilter& filter) {
     }
 }
 
-EdgeTermsFunction edgeTermsFor(const char* instruction_set) {
+EdgeTermsFunction edgeTermsFor(const char* instruction_set, Precision precision) {
+    const bool fp32 = precision == Precision::kFp32;
     const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
-    if (is("scalar")) return scalar::edgeTerms;
-    if (is("sse2")) return sse2::edgeTerms;
+    if (is("scalar")) return fp32 ? scalar_fp32::edgeTerms : scalar::edgeTerms;
+    if (is("sse2")) return fp32 ? sse2_fp32::edgeTerms : sse2::edgeTerms;
 #if defined(EDGEWISE_HAS_AVX)
-    if (is("avx2") && __builtin_cpu_supports("avx2")) return avx2::edgeTerms;
+    if (is("avx2") && __builtin_cpu_supports("avx2")) return fp32 ? avx2_fp32::edgeTerms : avx2::edgeTerms;
     if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
-        return avx512::edgeTerms;
+        return fp32 ? avx512_fp32::edgeTerms : avx512::edgeTerms;
 #endif
     return nullptr;
 }
 
-EdgeTermsFunction chooseEdgeTerms() {
+EdgeTermsFunction chooseEdgeTerms(Precision precision) {
     if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
-        if (EdgeTermsFunction function = edgeTermsFor(forced)) return function;
+        if (EdgeTermsFunction function = edgeTermsFor(forced, precision)) return function;
         throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
     }
     // four lanes skip more of what a support does not meet than eight: 10 % faster or even in every bench
     for (const char* name : {"avx2", "avx512", "sse2"})
-        if (EdgeTermsFunction function = edgeTermsFor(name)) return function;
-    return scalar::edgeTerms;
+        if (EdgeTermsFunction function = edgeTermsFor(name, precision)) return function;
+    return edgeTermsFor("scalar", precision);
 }
 
 }  // namespace edgewise

@@ -9,11 +9,13 @@
 #include "analytic/gauss_legendre.h"
 #include "analytic/kernel_table.h"
 #include "analytic/lane_kernel.h"
+#include "analytic/precision.h"
 #include "analytic/prefilter.h"
 
 namespace edgewise {
 
-/// A kernel prepared for its terms; `lanes` points into the rest.
+/// A kernel prepared for its terms; `lanes` points into the rest. For kFp32 the Gaussian's quadrature is as
+/// fine as float needs.
 struct EdgeKernel {
     LaneKernel lanes;
     std::array<GaussRule, kPieceRules> piece_rules;
@@ -21,7 +23,7 @@ struct EdgeKernel {
     std::vector<double> poly;
     std::shared_ptr<const KernelTable> table;
 
-    explicit EdgeKernel(const Prefilter& filter);
+    explicit EdgeKernel(const Prefilter& filter, Precision precision = Precision::kFp64);
     EdgeKernel(const EdgeKernel&) = delete;
     EdgeKernel& operator=(const EdgeKernel&) = delete;
 };
@@ -29,12 +31,13 @@ struct EdgeKernel {
 /// Errors, u = 2^-53, the rounding to fixed point of 2^-61 apart, for ends exact relative to the sample: the
 /// part inside the support, of a kernel that is nowhere negative, <= 16 u relative (of a clipped segment:
 /// between its clip points); with its crossings' positions <= 16 u absolute, separable kernels likewise.
+/// With kFp32 u is 2^-24 and the fixed point does not count.
 /// Measured over nine adversarial categories of edges: tests/studies/term_bounds; its numbers are at [E9].
 using EdgeTermsFunction = void (*)(const LaneKernel&, const EdgeInput&, EdgeTerms&);
 
 /// The best form that this machine runs, or the one that EDGEWISE_ISA=scalar|sse2|avx2|avx512 names.
-EdgeTermsFunction chooseEdgeTerms();
+EdgeTermsFunction chooseEdgeTerms(Precision precision = Precision::kFp64);
 /// By name; nullptr where this machine or build has none.
-EdgeTermsFunction edgeTermsFor(const char* instruction_set);
+EdgeTermsFunction edgeTermsFor(const char* instruction_set, Precision precision = Precision::kFp64);
 
 }  // namespace edgewise

@@ -93,10 +93,10 @@ Prefilter centroidMeasure(const Prefilter& filter) {
 FirstMoments::FirstMoments(const Prefilter& measure) : radius_(measure.radius), inner_(1.0) {
     switch (measure.kind) {
         case KernelKind::kCone:
-            form_ = TermForm::kCone;
+            form_ = kConeTerm;
             return;
         case KernelKind::kGaussian:
-            form_ = TermForm::kGaussian;
+            form_ = kGaussianTerm;
             per_sigma_ = radius_ / measure.sigma.value_or(radius_ / 3.0);
             inner_ = std::min(1.0, kGaussianReach / per_sigma_);
             inner_v_ = 0.5 * (inner_ * per_sigma_) * (inner_ * per_sigma_);
@@ -104,12 +104,12 @@ FirstMoments::FirstMoments(const Prefilter& measure) : radius_(measure.radius), 
             return;
         case KernelKind::kDisk:
         case KernelKind::kPoly:
-            form_ = TermForm::kPoly;
+            form_ = kPolyTerm;
             suffix_ = suffixSums(measure.kind == KernelKind::kDisk ? std::vector{1.0} : measure.poly);
             rule_ = gaussRule(static_cast<int>(suffix_.size()) + 1);
             return;
         default:
-            form_ = TermForm::kStrip;
+            form_ = kStripTerm;
     }
 }
 
@@ -142,8 +142,8 @@ double FirstMoments::polyIntegral(const Piece& piece) const {
 }
 
 double FirstMoments::psiIntegral(const Piece& piece) const {
-    if (form_ == TermForm::kCone) return -coneIntegral(piece.h, piece.t1, piece.t2) / (2.0 * M_PI);
-    return form_ == TermForm::kGaussian ? gaussianIntegral(piece) : polyIntegral(piece);
+    if (form_ == kConeTerm) return -coneIntegral(piece.h, piece.t1, piece.t2) / (2.0 * M_PI);
+    return form_ == kGaussianTerm ? gaussianIntegral(piece) : polyIntegral(piece);
 }
 
 glm::dvec2 FirstMoments::radialMoment(Piece piece, glm::dvec2 d) const {
@@ -163,7 +163,7 @@ glm::dvec2 FirstMoments::moment(const VisibleSegment& segment, const CarrierLine
         return (glm::dot(p.grid - sample_px, d) + glm::dot(p.rest, d)) / radius_;
     };
     const Piece piece{h, along(segment.a), along(segment.b)};
-    if (form_ == TermForm::kStrip) return boxMoment(piece.h, piece.t1, piece.t2, d);
+    if (form_ == kStripTerm) return boxMoment(piece.h, piece.t1, piece.t2, d);
     return radialMoment(piece, d);
 }
 

@@ -6,7 +6,7 @@
 
 namespace edgewise {
 
-enum class TermForm { kDisk, kCone, kGaussian, kPoly, kStrip };
+enum TermForm : int { kDiskTerm, kConeTerm, kGaussianTerm, kPolyTerm, kStripTerm };
 
 /// A GaussRule: the mean of f over [0, 1] is sum weight[i] f(node[i]).
 struct RuleView {
@@ -36,7 +36,7 @@ struct TableView {
 
 /// Everything about a kernel that its terms need.
 struct LaneKernel {
-    TermForm form = TermForm::kDisk;
+    TermForm form = kDiskTerm;
     double radius = 0.0;
     double inner_radius = 0.0;   ///< Gaussian: beyond it g is 1/(2 pi r^2) to 2^-61
     double scale = 0.0;          ///< F_in = h L' mean(..) scale
@@ -51,7 +51,7 @@ struct LaneKernel {
 /// A segment, its line and the first of eight samples, px. Names as in VisibleSegment and CarrierLine.
 struct EdgeInput {
     double sample_x, sample_y;
-    double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, length;
+    double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, len;
     double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
 };
 

@@ -40,12 +40,13 @@ EdgeInput inputOf(glm::dvec2 sample, const VisibleSegment& s, const CarrierLine&
 }  // namespace
 
 struct PixelWeights::State {
-    explicit State(const Prefilter& filter) : kernel(filter), edge_terms(chooseEdgeTerms()) {}
+    State(const Prefilter& filter, Precision precision)
+        : kernel(filter, precision), edge_terms(chooseEdgeTerms(precision)) {}
 
     bool reaches(const VisibleSegment& segment) const;
-    bool radial() const { return kernel.lanes.form != TermForm::kStrip; }
+    bool radial() const { return kernel.lanes.form != kStripTerm; }
     void addBorder(Owner left, Owner right);
-    void addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
+    void addBases(const EdgeInput& input, Owner left, Owner right);
 
     EdgeKernel kernel;
     EdgeTermsFunction edge_terms;
@@ -54,7 +55,7 @@ struct PixelWeights::State {
     EdgeTerms terms{};
     OwnerTable table;
     std::array<std::vector<BorderCrossing>, kLanes> crossings;
-    std::array<BasePoint, kLanes> bases;
+    std::array<f64::BasePoint, kLanes> bases;
     std::vector<BorderShare> shares;
     std::uint64_t term_count = 0, conflicts = 0;
 };
@@ -77,18 +78,18 @@ void PixelWeights::State::addBorder(Owner left, Owner right) {
 }
 
 /// Lanes whose point (sample.x + R, sample.y) the segment's box comes near to.
-void PixelWeights::State::addBases(const VisibleSegment& segment, const CarrierLine& line, Owner left,
-                                   Owner right) {
+void PixelWeights::State::addBases(const EdgeInput& in, Owner left, Owner right) {
     const double R = kernel.lanes.radius, margin = kMargin;
-    const glm::dvec2 a = segment.a.grid - first, b = segment.b.grid - first;
+    const glm::dvec2 a = glm::dvec2(in.a_x, in.a_y) - first, b = glm::dvec2(in.b_x, in.b_y) - first;
     if (std::min(a.y, b.y) > margin || std::max(a.y, b.y) < -margin) return;
     const double from = std::max(0.0, std::ceil(std::min(a.x, b.x) - R - margin));
     const double to = std::min(count - 1.0, std::floor(std::max(a.x, b.x) - R + margin));
     for (int i = static_cast<int>(from); i <= to; ++i)
-        considerBase(bases[i], radial(), R, {first.x + i, first.y}, segment, line, left, right);
+        f64::considerBase(bases[i], radial(), R, in, first.x + i, left, right);
 }
 
-PixelWeights::PixelWeights(const Prefilter& filter) : state_(std::make_unique<State>(filter)) {}
+PixelWeights::PixelWeights(const Prefilter& filter, Precision precision)
+    : state_(std::make_unique<State>(filter, precision)) {}
 PixelWeights::~PixelWeights() = default;
 
 void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
@@ -96,14 +97,15 @@ void PixelWeights::begin(glm::dvec2 first_sample_px, int count) {
     state_->count = count;
     state_->table.clear();
     for (auto& list : state_->crossings) list.clear();
-    state_->bases.fill(BasePoint());
+    state_->bases.fill(f64::noBasePoint());
 }
 
 void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right) {
     State& s = *state_;
     if (left == right || !s.reaches(segment)) return;
-    s.addBases(segment, line, left, right);
-    s.edge_terms(s.kernel.lanes, inputOf(s.first, segment, line), s.terms);
+    const EdgeInput input = inputOf(s.first, segment, line);
+    s.addBases(input, left, right);
+    s.edge_terms(s.kernel.lanes, input, s.terms);
     const unsigned touched = s.terms.touched & ((1u << s.count) - 1u);
     if (touched == 0) return;
     s.term_count += static_cast<unsigned>(__builtin_popcount(touched));
@@ -115,7 +117,7 @@ void PixelWeights::add(const VisibleSegment& segment, const CarrierLine& line, O
 void PixelWeights::finish(const Owner* base_owner, std::vector<OwnerWeight>& out, std::size_t* offset) {
     State& s = *state_;
     for (int i = 0; i < s.count; ++i) {
-        const Owner base = s.bases[i].known() ? s.bases[i].owner : base_owner[i];
+        const Owner base = f64::isKnown(s.bases[i]) ? s.bases[i].owner : base_owner[i];
         s.conflicts += static_cast<unsigned>(shareBorder(s.crossings[i], s.radial(), base, s.shares));
         for (const BorderShare& share : s.shares)
             wrappingAdd(s.table.row(share.owner).weight[i], share.share);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "analytic/precision.h"
 #include "analytic/prefilter.h"
 #include "analytic/visible_segment.h"
 
@@ -28,7 +29,7 @@ class PixelWeights {
   public:
     static constexpr int kLanes = 8;
 
-    explicit PixelWeights(const Prefilter& filter);
+    explicit PixelWeights(const Prefilter& filter, Precision precision = Precision::kFp64);
     ~PixelWeights();
     PixelWeights(const PixelWeights&) = delete;
     PixelWeights& operator=(const PixelWeights&) = delete;

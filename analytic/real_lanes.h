@@ -1,7 +1,7 @@
-// What the shared text needs of a `real`: one double, or 2, 4, 8 samples at once. Included inside a
-// namespace, so that functions compiled for one instruction set are never linked into another: define
-// EDGEWISE_LANES first, and include <immintrin.h> outside where EDGEWISE_X86 is defined. No include guard:
-// each instruction set has its own copy.
+// What the shared text needs of a `real`: one double, or 2, 4, 8 samples at once; and of `work`, the same or
+// as many floats with EDGEWISE_FP32. Included inside a namespace, so that functions compiled for one
+// instruction set are never linked into another: define EDGEWISE_LANES first, and include <immintrin.h>
+// outside where EDGEWISE_X86 is defined. No include guard: each instruction set has its own copy.
 
 #if EDGEWISE_LANES == 1
 using real = double;
@@ -66,7 +66,7 @@ EDGEWISE_FN bits truncated(real x) {
 }
 #endif
 
-EDGEWISE_FN bool any(mask m) {
+EDGEWISE_FN bool anyLane(mask m) {
     return laneSet(m) != 0;
 }
 EDGEWISE_FN real splat(double number) {
@@ -83,3 +83,83 @@ EDGEWISE_FN real exponentOf(real x) {
 EDGEWISE_FN real exp2Int(real k) {
     return __builtin_bit_cast(real, __builtin_bit_cast(bits, k + (0x1p52 + 1023.0)) << 52);
 }
+
+#if !defined(EDGEWISE_FP32)
+using work = real;
+using work_mask = mask;
+using work_number = double;
+#elif EDGEWISE_LANES == 1
+using work = float;
+using work_mask = bool;
+using work_number = float;
+using work_bits = int;
+EDGEWISE_FN work sqrt(work x) {
+    return __builtin_sqrtf(x);
+}
+EDGEWISE_FN work toWork(real x) {
+    return static_cast<work>(x);
+}
+EDGEWISE_FN real toReal(work x) {
+    return x;
+}
+EDGEWISE_FN work fromBits(work_bits x) {
+    return static_cast<work>(x);
+}
+EDGEWISE_FN work_bits toBits(work x) {
+    return static_cast<work_bits>(x);
+}
+#else
+typedef float work __attribute__((vector_size(4 * EDGEWISE_LANES)));
+typedef int work_bits __attribute__((vector_size(4 * EDGEWISE_LANES)));
+using work_mask = decltype(work{} < work{});
+using work_number = float;
+EDGEWISE_FN bool anyLane(work_mask m) {
+    return anyLane(__builtin_convertvector(m, mask));
+}
+#if defined(EDGEWISE_X86) && EDGEWISE_LANES == 8
+EDGEWISE_FN work sqrt(work x) {
+    return _mm256_sqrt_ps(x);
+}
+#elif defined(EDGEWISE_X86) && EDGEWISE_LANES == 4
+EDGEWISE_FN work sqrt(work x) {
+    return _mm_sqrt_ps(x);
+}
+#else
+EDGEWISE_FN work sqrt(work x) {
+    work root;
+    for (int i = 0; i < EDGEWISE_LANES; ++i) root[i] = __builtin_sqrtf(x[i]);
+    return root;
+}
+#endif
+EDGEWISE_FN work toWork(real x) {
+    return __builtin_convertvector(x, work);
+}
+EDGEWISE_FN real toReal(work x) {
+    return __builtin_convertvector(x, real);
+}
+EDGEWISE_FN work fromBits(work_bits x) {
+    return __builtin_convertvector(x, work);
+}
+EDGEWISE_FN work_bits toBits(work x) {
+    return __builtin_convertvector(x, work_bits);
+}
+#endif
+
+EDGEWISE_FN work splatWork(work_number number) {
+    return work{} + number;
+}
+EDGEWISE_FN work_number numberOf(double x) {
+    return static_cast<work_number>(x);
+}
+
+#ifdef EDGEWISE_FP32
+/// floor(log2 x) of a normal x > 0.
+EDGEWISE_FN work exponentOf(work x) {
+    return fromBits((__builtin_bit_cast(work_bits, x) >> 23) - 127);
+}
+
+/// 2^k for an integer |k| <= 126.
+EDGEWISE_FN work exp2Int(work k) {
+    return __builtin_bit_cast(work, (toBits(k) + 127) << 23);
+}
+#endif

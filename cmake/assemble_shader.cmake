@@ -1,5 +1,6 @@
 # cmake -DIN=FILE -DOUT=FILE -P: one text for glslang. `#include "FILE"`, once each, relative to the shaders folder;
-# EDGEWISE_REAL(number) becomes a double's literal, since glslang joins no tokens.
+# EDGEWISE_REAL(number) becomes a double's literal, since glslang joins no tokens, and EDGEWISE_WORK(number) too, or a
+# float's where the shader defines EDGEWISE_FP32.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(folder ${IN} DIRECTORY)
 
@@ -32,4 +33,10 @@ endmacro()
 
 assemble(${IN} shader)
 string(REGEX REPLACE "EDGEWISE_REAL\\(([-+.0-9a-fA-Fe]+)\\)" "\\1lf" shader "${shader}")
+if(shader MATCHES "#define EDGEWISE_FP32")
+  set(suffix "")
+else()
+  set(suffix "lf")
+endif()
+string(REGEX REPLACE "EDGEWISE_WORK\\(([-+.0-9a-fA-Fe]+)\\)" "\\1${suffix}" shader "${shader}")
 file(WRITE ${OUT} "${shader}")

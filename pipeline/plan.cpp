@@ -94,6 +94,7 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
         add("interior", false, "for supports without segments: the owner there has all the weight");
 
     plan.weights.shading = options.shading;
+    plan.weights.precision = options.precision;
     std::size_t merged = 0, classes = 0;
     plan.constant = constantShades(pieces, shading);
     OwnerClasses by_color = classesOf(plan.constant, merged, classes);

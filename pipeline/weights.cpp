@@ -37,20 +37,20 @@ std::pair<double, double> spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, doub
 /// The lattice of weight tiles over a box of pixels.
 struct TileLattice {
     PixelBox box;
-    int columns, rows;
+    int side_px, columns, rows;
 
-    explicit TileLattice(const PixelBox& pixels) : box(pixels) {
-        columns = (box.width() + kWeightTilePx - 1) / kWeightTilePx;
-        rows = (box.height() + kWeightTilePx - 1) / kWeightTilePx;
+    TileLattice(const PixelBox& pixels, int tile_px) : box(pixels), side_px(tile_px) {
+        columns = (box.width() + side_px - 1) / side_px;
+        rows = (box.height() + side_px - 1) / side_px;
     }
     PixelBox tile(int column, int row) const {
-        const int x = box.x0 + column * kWeightTilePx, y = box.y0 + row * kWeightTilePx;
-        return {x, y, std::min(x + kWeightTilePx, box.x1), std::min(y + kWeightTilePx, box.y1)};
+        const int x = box.x0 + column * side_px, y = box.y0 + row * side_px;
+        return {x, y, std::min(x + side_px, box.x1), std::min(y + side_px, box.y1)};
     }
     /// Tiles whose samples lie within [low, high], clamped; first > last: none.
-    static std::pair<int, int> range(double low, double high, int origin, int count) {
-        const double first = std::floor((low - 0.5 - origin) / kWeightTilePx);
-        const double last = std::floor((high - 0.5 - origin) / kWeightTilePx);
+    std::pair<int, int> range(double low, double high, int origin, int count) const {
+        const double first = std::floor((low - 0.5 - origin) / side_px);
+        const double last = std::floor((high - 0.5 - origin) / side_px);
         if (last < 0.0 || first >= count) return {0, -1};
         return {static_cast<int>(std::max(0.0, first)), static_cast<int>(std::min(count - 1.0, last))};
     }
@@ -61,11 +61,11 @@ void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 
                 Visit&& visit) {
     const glm::dvec2 a = rounded(s.a) - offset_px, b = rounded(s.b) - offset_px;
     const double reach = radius + kReachSlackPx;
-    const auto [r0, r1] = TileLattice::range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
+    const auto [r0, r1] = lattice.range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
     for (int row = r0; row <= r1; ++row) {
-        const double y0 = lattice.box.y0 + row * kWeightTilePx;
-        const auto [x0, x1] = spanWithin(a, b, y0 - reach, y0 + kWeightTilePx + reach);
-        const auto [c0, c1] = TileLattice::range(x0 - reach, x1 + reach, lattice.box.x0, lattice.columns);
+        const double y0 = lattice.box.y0 + row * lattice.side_px;
+        const auto [x0, x1] = spanWithin(a, b, y0 - reach, y0 + lattice.side_px + reach);
+        const auto [c0, c1] = lattice.range(x0 - reach, x1 + reach, lattice.box.x0, lattice.columns);
         for (int column = c0; column <= c1; ++column)
             visit(static_cast<std::size_t>(row) * lattice.columns + static_cast<std::size_t>(column));
     }
@@ -90,8 +90,9 @@ OwnerClasses OwnerClasses::ofMap(const LayerStacks& stacks, LayerStacks& named) 
     return out;
 }
 
-WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius) {
-    const TileLattice lattice(box);
+WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius,
+                           int tile_px) {
+    const TileLattice lattice(box, tile_px);
     WeightTiles tiles;
     for (int row = 0; row < lattice.rows; ++row)
         for (int column = 0; column < lattice.columns; ++column)
@@ -120,7 +121,10 @@ WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec
 }
 
 WeightWorker::WeightWorker(const Prefilter& filter, const WeightOptions& options)
-    : radius_(filter.radius), options_(options), weights_(filter), points_(filter, options.shading) {}
+    : radius_(filter.radius),
+      options_(options),
+      weights_(filter, options.precision),
+      points_(filter, options.shading) {}
 
 void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
                               const OwnerClasses& classes, double y) {

@@ -40,7 +40,8 @@ struct WeightTile {
 struct WeightOptions {
     bool skip_interior = true;    ///< a support without segments: the point's owner has it all
     bool skip_cancelling = true;  ///< a segment between owners of one class is not integrated
-    ShadingChoice shading;        ///< what WeightTile::points are wanted for
+    Precision precision = Precision::kFp64;
+    ShadingChoice shading;  ///< what WeightTile::points are wanted for
 };
 
 /// One thread's part of the stage.
@@ -77,12 +78,13 @@ class WeightWorker {
     std::uint64_t interior_pixels_ = 0;
 };
 
-/// Pixel boxes of kWeightTilePx that tile `box`, and the segments within reach of each.
+/// Pixel boxes of `tile_px` that tile `box`, row by row, and the segments within reach of each.
 inline constexpr int kWeightTilePx = 32;
 struct WeightTiles {
     std::vector<PixelBox> boxes;
     IdLists segments;
 };
-WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius);
+WeightTiles gatherSegments(const VisibleMap& map, const PixelBox& box, glm::dvec2 offset_px, double radius,
+                           int tile_px = kWeightTilePx);
 
 }  // namespace edgewise

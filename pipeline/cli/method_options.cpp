@@ -63,7 +63,7 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
     command.add_option("--device", arguments.device, "auto takes Vulkan only when a real GPU is there")
         ->type_name("cpu|vulkan|auto")
         ->capture_default_str();
-    command.add_option("--precision", arguments.precision, "arithmetic of weights; this build has fp64")
+    command.add_option("--precision", arguments.precision, "arithmetic of weights")
         ->type_name("fp64|fp32")
         ->capture_default_str();
     command
@@ -92,6 +92,7 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
     requireOneOf("--device", arguments.device, kDevices);
     requireOneOf("--precision", arguments.precision, kPrecisions);
     options.device = deviceChoice(arguments.device);
+    options.precision = arguments.precision == "fp32" ? Precision::kFp32 : Precision::kFp64;
     options.shading = readShading(arguments.shading);
     for (const std::string& name : arguments.no_skip) {
         requireOneOf("--no-skip", name, noSkipNames());
@@ -117,8 +118,6 @@ ThreadLimit::ThreadLimit(const RenderOptions& options) {
 
 void checkAbilities(const MethodArguments& arguments, const MethodSpec& method) {
     decideDevice(method, readMethodOptions(arguments));
-    if (arguments.precision != "fp64")
-        throw FailureError("--precision " + arguments.precision, "this build computes weights in fp64 only");
 }
 
 }  // namespace edgewise::cli

@@ -35,7 +35,7 @@ class ThreadLimit {
     std::optional<tbb::global_control> control_;
 };
 
-/// Throws FailureError when --device, the method's own device= or --precision ask for what this build has
+/// Throws FailureError when --device or the method's own device= ask for what this build has
 /// not, or --shading for what the method has not.
 void checkAbilities(const MethodArguments& arguments, const MethodSpec& method);
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analytic/precision.h"
 #include "analytic/prefilter.h"
 #include "pipeline/aov_names.h"
 #include "pipeline/film.h"
@@ -38,7 +39,8 @@ struct ShadingChoice {
 struct RenderOptions {
     glm::dvec3 background{0.0};  ///< linear
     DeviceChoice device = DeviceChoice::kAuto;
-    int threads = 0;  ///< 0: all
+    Precision precision = Precision::kFp64;  ///< of weights
+    int threads = 0;                         ///< 0: all
     std::size_t memory_mib = 1024;
     ShadingChoice shading;
     std::uint64_t seed = 0;

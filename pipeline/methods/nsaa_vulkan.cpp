@@ -1,8 +1,8 @@
-// nsaa on a Vulkan device: gather, visibility, shade and blend there; the weights between them on the host,
-// with the CPU's code. Every stage has the CPU's bits, and so has the picture.
+// nsaa on a Vulkan device, from gather to blend. Every stage has the CPU's bits, and so has the picture.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 #include "pipeline/composite.h"
@@ -12,6 +12,7 @@
 #include "pipeline/vulkan/gather.h"
 #include "pipeline/vulkan/shade.h"
 #include "pipeline/vulkan/visibility.h"
+#include "pipeline/vulkan/weights.h"
 
 namespace edgewise {
 namespace {
@@ -47,6 +48,12 @@ bool hasPoints(const NsaaFrame& frame) {
     return mode == ShadingMode::kCentroid || mode == ShadingMode::kSamples;
 }
 
+std::optional<std::string> whyNotWeighed(const NsaaFrame& frame) {
+    if (hasPoints(frame)) return "--shading centroid and samples:N find their points there";
+    if (frame.aov.weighs()) return "the AOVs ask for the weights of every owner";
+    return std::nullopt;
+}
+
 ShadeTables tablesOf(const NsaaFrame& frame) {
     return makeShadeTables({frame.in.scene, frame.in.camera, frame.in.film, frame.screen, frame.pieces,
                             frame.shading, frame.plan.constant, frame.in.options.background,
@@ -59,10 +66,12 @@ class VulkanStages : public CpuStages {
         : triangles_(bufferOf(device_, "triangles", frame.screen.triangles)),
           planes_(bufferOf(device_, "planes", frame.screen.planes)),
           gather_(device_),
-          visibility_(device_) {
+          visibility_(device_),
+          weights_(device_, frame.in.filter, frame.plan.weights) {
         const ShadeTables tables = tablesOf(frame);
         why_not_shaded_ = whyNotShaded(tables, device_.traits());
         if (!why_not_shaded_) shade_.emplace(device_, tables), blend_.emplace(device_), uses_ = tables.uses;
+        why_not_weighed_ = whyNotWeighed(frame);
         frame.result.device = "vulkan";
         frame.result.setup_seconds = frame.watch.lap();
     }
@@ -85,11 +94,12 @@ class VulkanStages : public CpuStages {
                 const PixelBox& band) override {
         if (why_not_shaded_) return CpuStages::render(frame, map, owners, band);
         for (int y = band.y0; y < band.y1; y += kStripRows) {
+            checkCancelled(frame.in.progress);
             const PixelBox strip{band.x0, y, band.x1, std::min(y + kStripRows, band.y1)};
-            tiles_.clear();
-            CpuStages::render(frame, map, owners, strip);
-            blendStrip(frame, owners.alike.stacks, strip);
-            frame.bookSeconds("blend", frame.watch.lap());
+            if (why_not_weighed_)
+                weighStripOnHost(frame, map, owners, strip);
+            else
+                weighStrip(frame, map, owners, strip);
         }
     }
 
@@ -97,9 +107,17 @@ class VulkanStages : public CpuStages {
         result.counts["device_leaves"] = report_.leaves;
         result.counts["cells_handed_back"] = report_.handed;
         result.counts["entries_handed_back"] = handed_entries_;
-        result.notes.push_back("gather, visibility, shade and blend on " + device_.traits().name +
-                               ", weights on the CPU");
-        if (why_not_shaded_) result.notes.push_back("shaded on the CPU: " + *why_not_shaded_);
+        const WeightReport& weighed = weights_.report();
+        result.counts["terms"] += weighed.terms;
+        result.counts["interior_pixels"] += weighed.interior_pixels;
+        result.counts["label_conflicts"] += weighed.label_conflicts;
+        result.counts["pixel_owner_pairs"] += weighed.pairs;
+        result.counts["pixels_handed_back"] = weighed.handed;
+        result.notes.push_back("made on " + device_.traits().name);
+        if (why_not_shaded_)
+            result.notes.push_back("weighed, shaded and blended on the CPU: " + *why_not_shaded_);
+        else if (why_not_weighed_)
+            result.notes.push_back("weighed on the CPU: " + *why_not_weighed_);
     }
 
   protected:
@@ -151,6 +169,14 @@ class VulkanStages : public CpuStages {
         return entries;
     }
 
+    void weighStripOnHost(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
+                          const PixelBox& strip) {
+        tiles_.clear();
+        CpuStages::render(frame, map, owners, strip);
+        blendStrip(frame, owners.alike.stacks, strip);
+        frame.bookSeconds("blend", frame.watch.lap());
+    }
+
     void blendStrip(NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& strip) {
         const StripEntries strip_entries = joined(strip);
         if (strip_entries.owners.size() > kMostEntries) {
@@ -158,64 +184,142 @@ class VulkanStages : public CpuStages {
             for (const WeightTile& tile : tiles_) frame.blendTile(tile, stacks);
             return;
         }
-        requireShadableEntries(stacks, strip, strip_entries);
-        const StackTables layers(stacks);
         const Buffer offsets = bufferOf(device_, "offsets", strip_entries.offsets),
                      owners = bufferOf(device_, "owners", strip_entries.owners),
                      weights = bufferOf(device_, "weights", strip_entries.weights),
-                     first = bufferOf(device_, "stacks", layers.first),
-                     list = bufferOf(device_, "layers", layers.layers),
                      ends = bufferOf(device_, "point ends", strip_entries.point_ends),
                      points = bufferOf(device_, "points", strip_entries.points);
         PassGraph graph(device_);
-        ShadeEntries entries{graph.input("triangles", triangles_),
-                             graph.input("offsets", offsets),
-                             graph.input("owners", owners),
-                             {},
-                             {},
-                             {},
-                             {},
-                             [&] { return strip; },
-                             [&] { return strip_entries.owners.size(); }};
-        if (uses_ & kUsesStacks)
-            entries.stack_first = graph.input("stacks", first),
-            entries.stack_layers = graph.input("layers", list);
+        const WeightEntries entries{graph.input("offsets", offsets), graph.input("owners", owners),
+                                    graph.input("weights", weights),
+                                    [&] { return strip_entries.owners.size(); }};
+        std::optional<EntryPoints> at;
         if (hasPoints(frame))
-            entries.point_ends = graph.input("point ends", ends),
-            entries.points = graph.input("points", points);
+            at = EntryPoints{graph.input("point ends", ends), graph.input("points", points)};
+        shadeAndBlend(frame, stacks, strip, graph, entries, at);
+    }
+
+    /// Halves what is too large for the device at once; a single tile is the host's.
+    void weighStrip(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
+                    const PixelBox& strip) {
+        PassGraph graph(device_);
+        const auto entries = weights_.addTo(graph, {map, owners.alike.classes, strip, frame.offset()});
+        if (!entries) {
+            if (std::max(strip.width(), strip.height()) <= kWeightTilePx)
+                return weighStripOnHost(frame, map, owners, strip);
+            for (const PixelBox& half : halves(strip)) weighStrip(frame, map, owners, half);
+            return;
+        }
+        shadeAndBlend(frame, owners.alike.stacks, strip, graph, *entries, std::nullopt);
+        if (frame.dump.active()) frame.dump.weights(readBack(graph, *entries, strip), owners.alike.stacks);
+        bookStrip(frame, graph);
+    }
+
+    /// Whole weight tiles but for the end.
+    static std::array<PixelBox, 2> halves(const PixelBox& box) {
+        const auto middle = [](int from, int to) {
+            return from + ((to - from) / 2 + kWeightTilePx - 1) / kWeightTilePx * kWeightTilePx;
+        };
+        if (box.width() >= box.height()) {
+            const int x = middle(box.x0, box.x1);
+            return {PixelBox{box.x0, box.y0, x, box.y1}, PixelBox{x, box.y0, box.x1, box.y1}};
+        }
+        const int y = middle(box.y0, box.y1);
+        return {PixelBox{box.x0, box.y0, box.x1, y}, PixelBox{box.x0, y, box.x1, box.y1}};
+    }
+
+    struct EntryPoints {
+        Resource ends, points;
+    };
+
+    void shadeAndBlend(NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& box, PassGraph& graph,
+                       const WeightEntries& weighed, const std::optional<EntryPoints>& points) {
+        const StackTables layers(stacks);
+        const Buffer first = bufferOf(device_, "stacks", layers.first),
+                     list = bufferOf(device_, "layers", layers.layers);
+        ShadeEntries entries{graph.input("triangles", triangles_),
+                             weighed.offsets,
+                             weighed.owners,
+                             {},
+                             {},
+                             {},
+                             {},
+                             [&] { return box; },
+                             weighed.count};
+        if (uses_ & kUsesStacks) {
+            entries.stack_first = graph.input("stacks", first);
+            entries.stack_layers = graph.input("layers", list);
+            requireShadableEntries(graph, stacks, box, weighed);
+        }
+        if (points) entries.point_ends = points->ends, entries.points = points->points;
         const Resource shades = shade_->addTo(graph, entries, [&](std::size_t e) {
-            return shadeOnHost(frame, stacks, strip, strip_entries, e);
+            return shadeOnHost(frame, stacks, box, graph, entries, e);
         });
         const BlendedPixels out =
-            blend_->addTo(graph, {entries.offsets, graph.input("weights", weights), shades, entries.box});
+            blend_->addTo(graph, {weighed.offsets, weighed.weights, shades, entries.box});
         graph.run({out.rgba, out.edge});
         handed_entries_ += shade_->handedBack();
-        store(graph, out, strip, frame.result.image);
+        store(graph, out, box, frame.result.image);
     }
 
     /// The device composites what it is given; the limit is asked here.
-    void requireShadableEntries(const LayerStacks& stacks, const PixelBox& strip,
-                                const StripEntries& entries) const {
-        if (!(uses_ & kUsesStacks)) return;
-        for (std::size_t p = 0; p + 1 < entries.offsets.size(); ++p)
-            for (std::size_t e = entries.offsets[p]; e < entries.offsets[p + 1]; ++e)
-                if (isStack(entries.owners[e]))
-                    requireShadable(stacks.layersOf(entries.owners[e]), pixelOf(strip, p));
+    static void requireShadableEntries(PassGraph& graph, const LayerStacks& stacks, const PixelBox& box,
+                                       const WeightEntries& entries) {
+        const auto ask = [&, entries](const PassGraph& g) {
+            const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
+            const auto offsets = g[entries.offsets].view<std::uint32_t>(pixels + 1);
+            const auto owners = g[entries.owners].view<std::uint32_t>(offsets[pixels]);
+            for (std::size_t p = 0; p < pixels; ++p)
+                for (std::size_t e = offsets[p]; e < offsets[p + 1]; ++e)
+                    if (isStack(owners[e])) requireShadable(stacks.layersOf(owners[e]), pixelOf(box, p));
+        };
+        graph.add("shadable",
+                  {.reads = {entries.offsets, entries.owners}, .writes = {entries.owners}, .host = ask});
     }
 
-    static glm::dvec2 pixelOf(const PixelBox& strip, std::size_t p) {
-        const auto width = static_cast<std::size_t>(strip.width());
-        return {strip.x0 + static_cast<int>(p % width) + 0.5, strip.y0 + static_cast<int>(p / width) + 0.5};
+    static glm::dvec2 pixelOf(const PixelBox& box, std::size_t p) {
+        const auto width = static_cast<std::size_t>(box.width());
+        return {box.x0 + static_cast<int>(p % width) + 0.5, box.y0 + static_cast<int>(p / width) + 0.5};
     }
 
-    static Shade shadeOnHost(const NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& strip,
-                             const StripEntries& entries, std::size_t e) {
-        const auto after = std::upper_bound(entries.offsets.begin(), entries.offsets.end(), e);
-        const auto pixel = static_cast<std::size_t>(after - entries.offsets.begin()) - 1;
-        const glm::dvec2 sample = pixelOf(strip, pixel) + frame.offset();
-        const std::size_t begin = e == 0 ? 0 : entries.point_ends[e - 1];
-        return frame.shade(stacks.layersOf(entries.owners[e]), sample,
-                           std::span(entries.points).subspan(begin, entries.point_ends[e] - begin));
+    static Shade shadeOnHost(const NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& box,
+                             const PassGraph& graph, const ShadeEntries& entries, std::size_t e) {
+        const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
+        const auto offsets = graph[entries.offsets].view<std::uint32_t>(pixels + 1);
+        const auto after = std::upper_bound(offsets.begin(), offsets.end(), e);
+        const auto pixel = static_cast<std::size_t>(after - offsets.begin()) - 1;
+        const glm::dvec2 sample = pixelOf(box, pixel) + frame.offset();
+        NsaaFrame::Offsets points;
+        if (entries.points) {
+            const auto ends = graph[*entries.point_ends].view<std::uint32_t>(e + 1);
+            const std::size_t begin = e == 0 ? 0 : ends[e - 1];
+            points = graph[*entries.points].view<glm::dvec2>(ends[e]).subspan(begin);
+        }
+        const auto owner = graph[entries.owners].view<std::uint32_t>(e + 1)[e];
+        return frame.shade(stacks.layersOf(owner), sample, points);
+    }
+
+    static WeightTile readBack(const PassGraph& graph, const WeightEntries& entries, const PixelBox& box) {
+        const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
+        const auto offsets = graph[entries.offsets].view<std::uint32_t>(pixels + 1);
+        const auto owners = graph[entries.owners].view<std::uint32_t>(offsets[pixels]);
+        const auto weights = graph[entries.weights].view<FixedWeight>(offsets[pixels]);
+        WeightTile tile{box, {offsets.begin(), offsets.end()}, {}, {}};
+        for (std::size_t e = 0; e < owners.size(); ++e) tile.entries.push_back({owners[e], weights[e]});
+        return tile;
+    }
+
+    /// The wall's time, in the proportion of what the passes of weights and the others report.
+    void bookStrip(NsaaFrame& frame, const PassGraph& graph) {
+        double weighing = 0.0, all = 0.0;
+        for (const PassTime& pass : graph.times()) {
+            all += pass.seconds;
+            if (pass.name.starts_with("weights")) weighing += pass.seconds;
+        }
+        const double wall = frame.watch.lap();
+        const double share = all > 0.0 ? weighing / all : 0.0;
+        frame.bookSeconds("weights", wall * share);
+        frame.bookSeconds("blend", wall * (1.0 - share));
     }
 
     static void store(const PassGraph& graph, const BlendedPixels& from, const PixelBox& strip,
@@ -235,7 +339,8 @@ class VulkanStages : public CpuStages {
     Buffer triangles_, planes_;
     Gather gather_;
     VisibilityPasses visibility_;
-    std::optional<std::string> why_not_shaded_;
+    WeightPasses weights_;
+    std::optional<std::string> why_not_shaded_, why_not_weighed_;
     std::optional<ShadePass> shade_;
     std::optional<BlendPass> blend_;
     std::uint32_t uses_ = 0;

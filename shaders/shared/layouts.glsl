@@ -11,7 +11,7 @@ struct GpuTriangle {
 
 /// A visible piece of a line between two owners, directed a -> b: analytic/visible_segment.h.
 struct GpuSegment {
-    double a_grid[2], a_rest[2], b_grid[2], b_rest[2], length;
+    double a_grid[2], a_rest[2], b_grid[2], b_rest[2], len;
     uint line, left, right, pad;
 };
 

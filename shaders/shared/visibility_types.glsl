@@ -1,7 +1,5 @@
 // GLSL only: the values of visibility as the shared text names them. C++ has them in analytic/.
-#define EDGEWISE_IN(type) type
 #define EDGEWISE_OUT(type) out type
-#define EDGEWISE_INOUT(type) inout type
 
 struct FineCoordinate { double grid; double rest; };
 struct FinePoint { dvec2 grid; dvec2 rest; };

@@ -130,7 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", ""}, "method"},
                     WrongCase{renderWith({"--device", "abacus"}), "--device"},
                     WrongCase{renderWith({"--precision", "fp16"}), "--precision"},
-                    WrongCase{renderWith({"--precision", "fp32"}), "fp64 only", 1},
                     WrongCase{renderWith({"--shading", "samples:5000"}), "--shading"},
                     WrongCase{renderWith({"--shading", "loud"}), "--shading"},
                     WrongCase{renderWith({"--shading", "samples:0"}), "--shading"},

@@ -12,9 +12,8 @@ namespace {
 namespace isa = observed_isa;
 
 void observeFan(const LaneKernel& kernel, const isa::Line& line, ObservedTerm& out) {
-    out.term = isa::fanTerms(kernel, line, 0, out.fixed);
     const isa::DiskCut cut = isa::cutByDisk(kernel, line);
-    out.t1 = cut.piece.t1, out.t2 = cut.piece.t2;
+    out.t1 = cut.t1, out.t2 = cut.t2;
 }
 
 }  // namespace
@@ -54,12 +53,14 @@ EdgeInput inputOf(const Edge& e) {
 ObservedTerm observe(const EdgeKernel& kernel, const Edge& edge) {
     ObservedTerm out{};
     const EdgeInput input = inputOf(edge);
-    if (!isa::boxesMeet(input, kernel.lanes.radius, 0)) return out;
-    const isa::Line line = isa::lineAt(input, 0);
-    if (kernel.lanes.form == TermForm::kStrip)
-        out.term = isa::stripTerms(kernel.lanes, line, 0, out.fixed);
-    else
-        observeFan(kernel.lanes, line, out);
+    if (!isa::boxesMeet(input, kernel.lanes.radius, input.sample_x, input.sample_x)) return out;
+    const isa::Line line = isa::lineAt(input, input.sample_x);
+    const bool strip = kernel.lanes.form == kStripTerm;
+    const isa::EdgeTerm term =
+        strip ? isa::stripTerms(kernel.lanes, line) : isa::fanTerms(kernel.lanes, line);
+    isa::storeTerm(term, 0, out.fixed);
+    out.term = term.touched ? term.value : 0.0;
+    if (!strip) observeFan(kernel.lanes, line, out);
     out.touched = out.fixed.touched & 1u;
     out.entered = out.fixed.crossed[0] & 1u, out.left = out.fixed.crossed[1] & 1u;
     return out;

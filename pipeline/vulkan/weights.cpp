@@ -1,0 +1,254 @@
+#include "pipeline/vulkan/weights.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "pipeline/vulkan/id_lists.h"
+#include "pipeline/vulkan/weight_lists.h"
+
+namespace edgewise::vulkan {
+namespace {
+
+/// lavapipe stops a loop, without a word, after 65535 turns of all loops together.
+constexpr std::size_t kMostTurns = 60000;
+
+/// Of a box's sums, 8 bytes an owner of a tile and pixel: as many entries at most, of 32 bytes when they are
+/// shaded.
+constexpr std::size_t kMostSumBytes = std::size_t{30} << 20;
+
+constexpr std::uint32_t kMostGroups = 65535;
+constexpr std::size_t kTilePixels = std::size_t{kTilePx} * kTilePx;
+
+Buffer numbersOf(const Device& device, const WeightKernel& kernel, Precision precision) {
+    if (precision == Precision::kFp64) return bufferOf(device, "kernel", kernel.numbers);
+    return bufferOf(device, "kernel", std::vector<float>(kernel.numbers.begin(), kernel.numbers.end()));
+}
+
+const char* shaderOf(Precision precision) {
+    return precision == Precision::kFp64 ? "weights_fp64.comp" : "weights_fp32.comp";
+}
+
+std::uint32_t mostOwners(const Device& device) {
+    return device.traits().real_gpu ? 0xffffffffu : static_cast<std::uint32_t>(kMostTurns);
+}
+
+/// Between dispatches that read what the last has written.
+void waitFor(vk::PipelineStageFlags stage, vk::AccessFlags writes, const vk::raii::CommandBuffer& commands) {
+    const vk::MemoryBarrier written(writes,
+                                    vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
+    commands.pipelineBarrier(stage, vk::PipelineStageFlagBits::eComputeShader, {}, written, {}, {});
+}
+
+}  // namespace
+
+/// Made by the host: which pixel of the box, and its entries.
+struct HandedPixel {
+    std::size_t pixel;
+    std::vector<OwnerWeight> entries;
+};
+
+/// One box.
+struct WeightPasses::Job {
+    Job(const Device& device, const WeightInput& in, double radius)
+        : input(in),
+          lists(in, radius),
+          segments(bufferOf(device, "segments", lists.segments)),
+          lines(bufferOf(device, "lines", lists.lines)),
+          offsets(bufferOf(device, "tile offsets", lists.offsets)),
+          entries(bufferOf(device, "tile segments", lists.entries)),
+          slots(bufferOf(device, "tile slots", lists.slots)),
+          owners(bufferOf(device, "tile owners", lists.owners)),
+          row_offsets(bufferOf(device, "row offsets", lists.row_offsets)),
+          rows(bufferOf(device, "rows", lists.rows)) {}
+
+    std::size_t tiles() const { return lists.tiles.boxes.size(); }
+    std::size_t pixels() const { return static_cast<std::size_t>(input.box.width()) * input.box.height(); }
+    std::size_t sumBytes() const { return lists.owners.size() * kTilePixels * sizeof(FixedWeight); }
+    Groups groups() const {
+        const auto count = static_cast<std::uint32_t>(tiles()), row = std::min(count, kMostGroups);
+        return {row, (count + row - 1) / row};
+    }
+    WeightPush push(const LaneKernel& kernel) const {
+        const PixelBox& box = input.box;
+        return {kernel.radius,
+                kernel.inner_radius,
+                input.offset_px.x,
+                input.offset_px.y,
+                box.x0,
+                box.y0,
+                box.width(),
+                box.height(),
+                static_cast<uint>(tiles()),
+                static_cast<uint>((box.width() + kTilePx - 1) / kTilePx),
+                0,
+                0,
+                box.y0 + static_cast<int>(input.offset_px.y),
+                groups().x};
+    }
+
+    const WeightInput input;
+    const WeightLists lists;
+    const Buffer segments, lines, offsets, entries, slots, owners, row_offsets, rows;
+    Resource sums = 0, states = 0, kinds = 0, counts = 0, out_offsets = 0, out_owners = 0, out_weights = 0;
+    std::vector<HandedPixel> handed;
+
+    void insertHanded(const PassGraph& graph) const {
+        const auto at = graph[out_offsets].view<uint>(pixels() + 1);
+        const auto out_owner = graph[out_owners].view<uint>(at[pixels()]);
+        const auto out_weight = graph[out_weights].view<FixedWeight>(at[pixels()]);
+        for (const HandedPixel& pixel : handed)
+            for (std::size_t e = 0; e < pixel.entries.size(); ++e) {
+                out_owner[at[pixel.pixel] + e] = pixel.entries[e].owner;
+                out_weight[at[pixel.pixel] + e] = pixel.entries[e].weight;
+            }
+    }
+
+    /// What a shader binds; `none` stands where it has nothing.
+    std::vector<BufferRange> bindings(const Buffer& numbers) const {
+        std::vector<BufferRange> all(kWeightBindings, BufferRange(numbers));
+        all[kWeightSegments] = segments, all[kWeightLines] = lines;
+        all[kWeightOffsets] = offsets, all[kWeightEntries] = entries;
+        all[kWeightSlots] = slots, all[kWeightOwners] = owners;
+        all[kWeightRowOffsets] = row_offsets, all[kWeightRows] = rows;
+        return all;
+    }
+};
+
+WeightPasses::WeightPasses(const Device& device, const Prefilter& filter, const WeightOptions& options)
+    : device_(device),
+      filter_(filter),
+      options_(options),
+      kernel_(filter, options.precision),
+      numbers_(numbersOf(device, kernel_, options.precision)),
+      terms_(device, shaderOf(options.precision), kWeightBindings, sizeof(WeightPush), kernel_.constants),
+      finish_(device, "weights_finish.comp", kWeightBindings, sizeof(WeightPush),
+              {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u, mostOwners(device)}),
+      fill_(device, "weights_fill.comp", kWeightBindings, sizeof(WeightPush)),
+      scan_(device) {}
+
+std::optional<WeightEntries> WeightPasses::addTo(PassGraph& graph, const WeightInput& input) {
+    const auto job = std::make_shared<Job>(device_, input, filter_.radius);
+    if (job->sumBytes() > kMostSumBytes) return std::nullopt;
+    addTerms(graph, job);
+    addFinish(graph, job);
+    addFill(graph, job);
+    return WeightEntries{job->out_offsets, job->out_owners, job->out_weights,
+                         [=, &graph] { return entriesOf(graph, job->out_offsets, job->pixels()); }};
+}
+
+/// As many dispatches as the turns that a device grants ask for.
+void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
+    terms_.forgetSets();
+    pass.commands.fillBuffer(pass[job.sums].handle(), 0, VK_WHOLE_SIZE, 0);
+    waitFor(vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite, pass.commands);
+    auto buffers = job.bindings(numbers_);
+    buffers[kWeightSums] = pass[job.sums], buffers[kWeightStates] = pass[job.states];
+    WeightPush push = job.push(kernel_.kernel.lanes);
+    const std::size_t most = device_.traits().real_gpu ? job.lists.longest : kMostTurns / (kernel_.turns + 1);
+    push.count = static_cast<uint>(std::max<std::size_t>(most, 1));
+    do {
+        terms_.dispatch(pass.commands, buffers, job.groups(), push);
+        waitFor(vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite, pass.commands);
+        push.first += push.count;
+    } while (push.first < job.lists.longest);
+}
+
+void WeightPasses::addTerms(PassGraph& graph, const std::shared_ptr<Job>& job) {
+    job->sums = graph.buffer("sums", [=] { return job->sumBytes(); });
+    job->states =
+        graph.buffer("pixel states", [=] { return job->tiles() * kTilePixels * sizeof(GpuPixelState); });
+    graph.add("weights", {.reads = {},
+                          .writes = {job->sums, job->states},
+                          .record = [=, this](const PassContext& pass) { recordTerms(pass, *job); }});
+}
+
+void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) {
+    job->kinds = graph.buffer("pixel kinds", [=] { return job->tiles() * kTilePixels * 2 * sizeof(uint); });
+    job->counts = graph.buffer("entry counts", [=] { return job->pixels() * sizeof(uint); });
+    graph.add("weights finish",
+              {.reads = {job->sums, job->states},
+               .writes = {job->sums, job->kinds, job->counts},
+               .record = [=, this](const PassContext& pass) {
+                   auto buffers = job->bindings(numbers_);
+                   buffers[kWeightSums] = pass[job->sums], buffers[kWeightStates] = pass[job->states];
+                   buffers[kWeightPixels] = pass[job->kinds], buffers[kWeightCounts] = pass[job->counts];
+                   finish_.forgetSets();
+                   finish_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
+               }});
+    graph.add("weights on the host", {.reads = {job->states, job->kinds, job->counts},
+                                      .writes = {job->counts},
+                                      .host = [=, this](const PassGraph& g) { makeOnHost(g, *job); }});
+}
+
+/// Counts what the device has made, and makes the pixels that it handed back.
+void WeightPasses::makeOnHost(const PassGraph& graph, Job& job) {
+    const auto kinds = graph[job.kinds].view<glm::uvec2>(job.tiles() * kTilePixels);
+    const auto states = graph[job.states].view<GpuPixelState>(kinds.size());
+    const auto counts = graph[job.counts].view<uint>(job.pixels());
+    const PixelBox& box = job.input.box;
+    std::vector<std::size_t> tile_of;
+    for (std::size_t t = 0; t < job.tiles(); ++t) {
+        const PixelBox& tile = job.lists.tiles.boxes[t];
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                const auto lane = static_cast<std::size_t>((y - tile.y0) * kTilePx + (x - tile.x0));
+                const std::size_t i = t * kTilePixels + lane;
+                report_.terms += states[i].touched;
+                report_.interior_pixels += kinds[i].x == kPixelWhole;
+                if (kinds[i].x != kPixelHanded) continue;
+                job.handed.push_back(
+                    {static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
+                         static_cast<std::size_t>(x - box.x0),
+                     {}});
+                tile_of.push_back(t);
+            }
+    }
+    tbb::enumerable_thread_specific<WeightWorker> workers([&] { return WeightWorker(filter_, options_); });
+    tbb::parallel_for(std::size_t{0}, job.handed.size(), [&](std::size_t i) {
+        HandedPixel& pixel = job.handed[i];
+        const auto width = static_cast<std::size_t>(box.width());
+        const int x = box.x0 + static_cast<int>(pixel.pixel % width),
+                  y = box.y0 + static_cast<int>(pixel.pixel / width);
+        const IdLists& lists = job.lists.tiles.segments;
+        const std::size_t t = tile_of[i];
+        WeightTile made;
+        workers.local().run(
+            job.input.map,
+            std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
+            job.input.classes, {x, y, x + 1, y + 1}, job.input.offset_px, made);
+        pixel.entries = std::move(made.entries);
+        counts[pixel.pixel] = static_cast<uint>(pixel.entries.size());
+    });
+    for (const WeightWorker& w : workers) report_.label_conflicts += w.labelConflicts();
+    report_.handed += job.handed.size();
+}
+
+void WeightPasses::addFill(PassGraph& graph, const std::shared_ptr<Job>& job) {
+    job->out_offsets = scan_.addTo(graph, "weights", job->counts, job->pixels());
+    const auto entries = [=, &graph] { return entriesOf(graph, job->out_offsets, job->pixels()); };
+    job->out_owners = graph.buffer("entry owners", [=] { return entries() * sizeof(uint); });
+    job->out_weights = graph.buffer("entry weights", [=] { return entries() * sizeof(FixedWeight); });
+    // the host must have seen the offsets before the buffers are made
+    graph.add("weights room", {.reads = {job->out_offsets},
+                               .writes = {job->out_owners, job->out_weights},
+                               .host = [=, this](const PassGraph&) { report_.pairs += entries(); }});
+    graph.add("weights fill",
+              {.reads = {job->sums, job->kinds, job->out_offsets},
+               .writes = {job->out_owners, job->out_weights},
+               .record = [=, this](const PassContext& pass) {
+                   auto buffers = job->bindings(numbers_);
+                   buffers[kWeightSums] = pass[job->sums], buffers[kWeightPixels] = pass[job->kinds];
+                   buffers[kWeightOutOffsets] = pass[job->out_offsets];
+                   buffers[kWeightOutOwners] = pass[job->out_owners];
+                   buffers[kWeightOutWeights] = pass[job->out_weights];
+                   fill_.forgetSets();
+                   fill_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
+               }});
+    graph.add("weights from the host", {.reads = {job->out_offsets, job->out_owners, job->out_weights},
+                                        .writes = {job->out_owners, job->out_weights},
+                                        .host = [=](const PassGraph& g) { job->insertHanded(g); }});
+}
+
+}  // namespace edgewise::vulkan

@@ -1,0 +1,54 @@
+// GLSL only: the buffers of weights, and which pixel an invocation is.
+layout(local_size_x = 64) in;
+#include "shared/real_bits.glsl"
+#include "shared/double_double.glsl"
+#include "shared/transcendental.glsl"
+#include "shared/layouts.glsl"
+#include "shared/weight_layouts.glsl"
+
+layout(std430, binding = kWeightNumbers) readonly buffer Numbers { work kernel_numbers[]; };
+layout(std430, binding = kWeightSegments) readonly buffer Segments { GpuSegment segments[]; };
+layout(std430, binding = kWeightLines) readonly buffer Lines { GpuCarrierLine lines[]; };
+layout(std430, binding = kWeightOffsets) readonly buffer Offsets { uint offsets[]; };
+layout(std430, binding = kWeightEntries) readonly buffer Entries { GpuTileSegment entries[]; };
+layout(std430, binding = kWeightSlots) readonly buffer Slots { uint slots[]; };
+layout(std430, binding = kWeightOwners) readonly buffer Owners { uint owners[]; };
+layout(std430, binding = kWeightSums) buffer Sums { int64_t sums[]; };
+layout(std430, binding = kWeightStates) buffer States { GpuPixelState states[]; };
+layout(std430, binding = kWeightRowOffsets) readonly buffer RowOffsets { uint row_offsets[]; };
+layout(std430, binding = kWeightRows) readonly buffer Rows { GpuRowOwner rows[]; };
+layout(std430, binding = kWeightPixels) buffer Pixels { uvec2 pixels[]; };
+layout(std430, binding = kWeightCounts) buffer Counts { uint counts[]; };
+layout(std430, binding = kWeightOutOffsets) readonly buffer OutOffsets { uint out_offsets[]; };
+layout(std430, binding = kWeightOutOwners) writeonly buffer OutOwners { uint out_owners[]; };
+layout(std430, binding = kWeightOutWeights) writeonly buffer OutWeights { int64_t out_weights[]; };
+layout(push_constant) uniform Push { WeightPush push; };
+
+uint tileIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }
+uint stateIndex() { return tileIndex() * 64u + gl_LocalInvocationIndex; }
+
+/// In the box.
+ivec2 pixelInBox() {
+    int tile = int(tileIndex()), lane = int(gl_LocalInvocationIndex), columns = int(push.tile_columns);
+    return ivec2(tile % columns, tile / columns) * kTilePx + ivec2(lane % kTilePx, lane / kTilePx);
+}
+bool hasPixel() {
+    ivec2 at = pixelInBox();
+    return tileIndex() < push.tiles && at.x < push.width && at.y < push.height;
+}
+uint pixelIndex() { return uint(pixelInBox().y * push.width + pixelInBox().x); }
+double sampleX() { return (double(push.x0 + pixelInBox().x) + 0.5lf) + push.offset_x; }
+double sampleY() { return (double(push.y0 + pixelInBox().y) + 0.5lf) + push.offset_y; }
+
+/// The sum of the tile's owner at `place` for this invocation's pixel.
+uint sumIndex(uint place) { return (slots[tileIndex()] + place) * 64u + gl_LocalInvocationIndex; }
+uint ownerCount() { return slots[tileIndex() + 1u] - slots[tileIndex()]; }
+uint ownerAt(uint place) { return owners[slots[tileIndex()] + place]; }
+
+/// splitmix64's mixer: sums of it tell whether two multisets of owners are equal.
+uint64_t hashOf(uint owner) {
+    uint64_t z = (uint64_t(owner) + 1ul) * packUint2x32(uvec2(0x7f4a7c15u, 0x9e3779b9u));
+    z = (z ^ (z >> 30)) * packUint2x32(uvec2(0x1ce4e5b9u, 0xbf58476du));
+    z = (z ^ (z >> 27)) * packUint2x32(uvec2(0x133111ebu, 0x94d049bbu));
+    return z ^ (z >> 31);
+}

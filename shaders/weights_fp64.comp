@@ -1,0 +1,2 @@
+#version 460
+#include "shared/weight_terms.glsl"
