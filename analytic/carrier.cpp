@@ -117,11 +117,6 @@ Carrier depthCarrier(const ScreenScene& scene, LineRef ref) {
     return line;
 }
 
-bool passesNear(const Carrier& depth_line, glm::dvec2 p) {
-    const double f = depthDifference(depth_line, p).hi;
-    return std::abs(f) <= 0x1p-40 * std::hypot(depth_line.A.hi, depth_line.B.hi);
-}
-
 FinePoint pointAtY(const Carrier& line, FineCoordinate y) {
     if (line.isEdge()) {
         const glm::dvec2 e = line.b - line.a;

@@ -49,9 +49,6 @@ FinePoint pointAtX(const Carrier& line, FineCoordinate x);
 /// cross.
 bool crossing(const Carrier& p, const Carrier& q, FinePoint& point);
 
-/// Whether a line of equal depth passes within 2^-40 px of a point.
-bool passesNear(const Carrier& depth_line, glm::dvec2 p);
-
 /// Whether two edges run between the same points.
 inline bool sameEdge(const Carrier& p, const Carrier& q) {
     return p.a == q.a && p.b == q.b;

@@ -1,9 +1,6 @@
 // Lines clipped to a cell. Both cells beside a border compute the same bits for the point on it.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "analytic/cell.h"
 
 namespace edgewise {
@@ -39,15 +36,7 @@ struct LeafLine {
     FinePoint enter, exit;
     double slope = 0.0;                ///< dx/dy
     double x_low = 0.0, x_high = 0.0;  ///< from the cell's origin, over the part inside
-    /// Vertices that both planes of a line of equal depth pass through: the line does too, whatever rounding
-    /// says.
-    std::array<glm::dvec2, 3> through{};
-    std::size_t through_count = 0;
 
-    bool passesThrough(glm::dvec2 p) const {
-        return std::find(through.begin(), through.begin() + through_count, p) !=
-               through.begin() + through_count;
-    }
     bool runsInside() const { return in0 < in1; }
     /// Abscissa at an ordinate between in0 and in1, from the frame's origin.
     double xAt(const CellFrame& frame, FineCoordinate y) const {

@@ -5,23 +5,11 @@
 namespace edgewise {
 namespace {
 
-/// A vertex that both triangles share lies in both planes, as far as rounded planes can say so: those of
-/// nearly coplanar triangles may be equal elsewhere, and then the planes decide, not the vertex.
-bool sharesVertex(const ScreenTriangle& t, std::size_t k, const ScreenTriangle& other,
-                  const Carrier& depth_line) {
-    const bool shared =
-        std::find(other.vertex.begin(), other.vertex.end(), t.vertex[k]) != other.vertex.end();
-    return shared && passesNear(depth_line, t.p_px[k]);
-}
-
-/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A
-/// shared vertex says nothing.
-int signsAtVertices(const ScreenTriangle& t, const ScreenTriangle& other, const LocalPlane& p,
-                    const LocalPlane& q, const Carrier& depth_line, glm::dvec2 origin) {
+/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative.
+int signsAtVertices(const ScreenTriangle& t, const LocalPlane& p, const LocalPlane& q, glm::dvec2 origin) {
     int signs = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (sharesVertex(t, k, other, depth_line)) continue;
-        const glm::dvec2 v = t.p_px[k] - origin;
+    for (const glm::dvec2& p_px : t.p_px) {
+        const glm::dvec2 v = p_px - origin;
         const double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
         // Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
         const double far =
@@ -69,23 +57,9 @@ bool separates(const ScreenTriangle& s, const ScreenTriangle& t) {
     return false;
 }
 
-/// Lines that meet in a vertex by construction cross nowhere else.
-bool meetInVertex(const LeafLine& p, const LeafLine& q) {
-    const Carrier &c = p.carrier, &d = q.carrier;
-    if (c.isEdge() && d.isEdge()) return c.a == d.a || c.a == d.b || c.b == d.a || c.b == d.b;
-    if (c.isEdge()) return q.passesThrough(c.a) || q.passesThrough(c.b);
-    if (d.isEdge()) return p.passesThrough(d.a) || p.passesThrough(d.b);
-    return std::any_of(p.through.begin(), p.through.begin() + p.through_count,
-                       [&](glm::dvec2 v) { return q.passesThrough(v); });
-}
-
-/// The vertices that two triangles share lie on the line where their planes are equal.
-void noteSharedVertices(const ScreenTriangle& s, const ScreenTriangle& t, LeafLine& line) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (sharesVertex(s, k, t, line.carrier) && !line.passesThrough(s.p_px[k]) &&
-            line.through_count < line.through.size())
-            line.through[line.through_count++] = s.p_px[k];
-    }
+/// Edges that meet in a vertex cross nowhere else.
+bool meetInVertex(const Carrier& p, const Carrier& q) {
+    return p.isEdge() && q.isEdge() && (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b);
 }
 
 }  // namespace
@@ -143,26 +117,25 @@ void LeafLines::addDepthLines(const ScreenScene& scene, std::span<const std::uin
             if (p.plane == q.plane || p.owner == q.owner) continue;
             const ScreenTriangle &s = scene.triangles[triangles[i]], &t = scene.triangles[triangles[j]];
             if (every) {
-                addDepthLine(scene, s, t);
+                addDepthLine(scene, LineRef::depth(p.plane, q.plane));
                 continue;
             }
             if (ordered(p, q, lo, hi) || !boxesOverlap(s, t) || separates(s, t) || separates(t, s)) continue;
-            const Carrier line = depthCarrier(scene, LineRef::depth(p.plane, q.plane));
-            if (signsAtVertices(s, t, p, q, line, frame.origin) != 3) continue;
-            if (signsAtVertices(t, s, p, q, line, frame.origin) != 3) continue;
-            addDepthLine(scene, s, t);
+            if (signsAtVertices(s, p, q, frame.origin) != 3) continue;
+            if (signsAtVertices(t, p, q, frame.origin) != 3) continue;
+            addDepthLine(scene, LineRef::depth(p.plane, q.plane));
         }
     }
     counts.depth_lines += lines.size() + horizontals.size() - before;
 }
 
-void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, const ScreenTriangle& q) {
+void LeafLines::addDepthLine(const ScreenScene& scene, LineRef ref) {
     LeafLine line;
-    line.carrier = depthCarrier(scene, LineRef::depth(p.plane, q.plane));
+    line.carrier = depthCarrier(scene, ref);
     const Carrier& c = line.carrier;
     if (c.A.hi == 0.0 && c.B.hi == 0.0) return;
-    for (LeafLine& known : lines)
-        if (known.carrier.ref == c.ref) return noteSharedVertices(p, q, known);
+    for (const LeafLine& known : lines)
+        if (known.carrier.ref == c.ref) return;
     for (const LeafHorizontal& known : horizontals)
         if (known.carrier.ref == c.ref) return;
     if (c.horizontal()) {
@@ -175,7 +148,6 @@ void LeafLines::addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, 
         return;
     }
     if (!clipDepthLine(frame, line)) return;
-    noteSharedVertices(p, q, line);
     lines.push_back(line);
     masks.resize(lines.size() * words, 0);
 }
@@ -187,16 +159,11 @@ void LeafLines::addCrossings() {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LeafLine& p = lines[i];
         if (!p.runsInside()) continue;
-        for (std::size_t k = 0; k < p.through_count; ++k) {
-            const OrderKey key = frame.key({p.through[k].y, 0.0});
-            const auto self = static_cast<std::uint32_t>(i);
-            if (key > p.in0 && key < p.in1) events.push_back({key, self, self, gridPoint(p.through[k])});
-        }
         for (std::size_t j = i + 1; j < lines.size(); ++j) {
             const LeafLine& q = lines[j];
             if (!q.runsInside() || p.in1 < q.in0 || q.in1 < p.in0) continue;
             if (p.x_high + kPad < q.x_low || q.x_high + kPad < p.x_low) continue;
-            if (meetInVertex(p, q)) continue;
+            if (meetInVertex(p.carrier, q.carrier)) continue;
             FinePoint point;
             if (!crossing(p.carrier, q.carrier, point)) continue;
             const OrderKey key = frame.key(yOf(point));

@@ -40,7 +40,7 @@ class LeafLines {
     void addEdge(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t edge, std::size_t bit);
     void addDepthLines(const ScreenScene& scene, std::span<const std::uint32_t> triangles, bool every,
                        VisibilityCounts& counts);
-    void addDepthLine(const ScreenScene& scene, const ScreenTriangle& p, const ScreenTriangle& q);
+    void addDepthLine(const ScreenScene& scene, LineRef ref);
     void addCrossings();
     void addKey(OrderKey key, FineCoordinate y);
     void sortKeys();

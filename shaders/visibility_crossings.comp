@@ -4,33 +4,20 @@ layout(local_size_x = 64) in;
 #include "shared/visibility_buffers.glsl"
 #include "shared/visibility_leaf.glsl"
 
-bool passesThrough(GpuLine line, dvec2 p) {
-    return (line.through_count > 0u && dvec2(line.through[0], line.through[1]) == p) ||
-           (line.through_count > 1u && dvec2(line.through[2], line.through[3]) == p) ||
-           (line.through_count > 2u && dvec2(line.through[4], line.through[5]) == p);
-}
-
-/// Lines that meet in a vertex by construction cross nowhere else.
+/// Edges that meet in a vertex cross nowhere else.
 bool meetInVertex(GpuLine p, GpuLine q) {
-    bool p_edge = p.line_j >= kFirstEdge, q_edge = q.line_j >= kFirstEdge;
     dvec2 pa = pair(p.a), pb = pair(p.b), qa = pair(q.a), qb = pair(q.b);
-    if (p_edge && q_edge) return pa == qa || pa == qb || pb == qa || pb == qb;
-    if (p_edge) return passesThrough(q, pa) || passesThrough(q, pb);
-    if (q_edge) return passesThrough(p, qa) || passesThrough(p, qb);
-    return (p.through_count > 0u && passesThrough(q, dvec2(p.through[0], p.through[1]))) ||
-           (p.through_count > 1u && passesThrough(q, dvec2(p.through[2], p.through[3]))) ||
-           (p.through_count > 2u && passesThrough(q, dvec2(p.through[4], p.through[5])));
+    bool edges = p.line_j >= kFirstEdge && q.line_j >= kFirstEdge;
+    return edges && (pa == qa || pa == qb || pb == qa || pb == qb);
 }
 
-/// What may meet, in the host's order: i + 256 j; of a vertex that line i passes through, j = 128 + its number.
+/// What may meet, in the host's order: i + 256 j.
 uint candidates() {
     uint count = 0u;
-    for (uint i = 0u; i < leaf.lines; ++i, spent += 6u) {
+    for (uint i = 0u; i < leaf.lines; ++i, spent += 2u) {
         GpuLine p = lines[lineAt(i)];
         OrderKey p0 = keyFrom(p.in0), p1 = keyFrom(p.in1);
         if (!keyLess(p0, p1)) continue;
-        for (uint k = 0u; k < p.through_count; ++k)
-            words[wordAt(kWordPairs + count++)] = i + 256u * (128u + k);
         for (uint j = i + 1u; j < leaf.lines; ++j, ++spent) {
             OrderKey q0 = keyFrom(lines[lineAt(j)].in0), q1 = keyFrom(lines[lineAt(j)].in1);
             if (!keyLess(q0, q1) || keyLess(p1, q0) || keyLess(q1, p0)) continue;
@@ -64,15 +51,7 @@ bool crossing(Carrier p, Carrier q, out FinePoint point) {
 }
 
 bool meet(uint i, uint j) {
-    GpuLine p = lines[lineAt(i)];
-    if (j >= 128u) {
-        uint k = j - 128u;
-        dvec2 v = dvec2(p.through[2u * k], p.through[2u * k + 1u]);
-        OrderKey key = keyIn(frame, FineCoordinate(v.y, 0.0lf));
-        if (!keyLess(keyFrom(p.in0), key) || !keyLess(key, keyFrom(p.in1))) return true;
-        return addEvent(key, i, i, gridPoint(v));
-    }
-    GpuLine q = lines[lineAt(j)];
+    GpuLine p = lines[lineAt(i)], q = lines[lineAt(j)];
     FinePoint point;
     if (meetInVertex(p, q) || !crossing(carrierFrom(p), carrierFrom(q), point)) return true;
     OrderKey key = keyIn(frame, yOf(point));

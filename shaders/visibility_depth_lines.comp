@@ -26,31 +26,12 @@ uint candidatePairs() {
     return count;
 }
 
-bool changesOrder(uint i, uint j, Carrier line) {
+bool changesOrder(uint i, uint j) {
     uint begin = cells[leaf.cell].begin;
     ScreenTriangle s = triangleAt(kept[begin + i]), t = triangleAt(kept[begin + j]);
     LocalPlane p = localPlaneAt(i), q = localPlaneAt(j);
     if (!boxesOverlap(s, t) || separates(s, t) || separates(t, s)) return false;
-    return signsAtVertices(s, t, p, q, line, frame.origin) == 3 && signsAtVertices(t, s, p, q, line, frame.origin) == 3;
-}
-
-bool passesThrough(uint line, dvec2 p) {
-    for (uint k = 0u; k < lines[lineAt(line)].through_count; ++k)
-        if (dvec2(lines[lineAt(line)].through[2u * k], lines[lineAt(line)].through[2u * k + 1u]) == p) return true;
-    return false;
-}
-
-/// The vertices that two triangles share lie on the line where their planes are equal.
-void noteSharedVertices(uint i, uint j, uint line, Carrier carrier) {
-    uint begin = cells[leaf.cell].begin;
-    ScreenTriangle s = triangleAt(kept[begin + i]), t = triangleAt(kept[begin + j]);
-    for (int k = 0; k < 3; ++k) {
-        uint count = lines[lineAt(line)].through_count;
-        if (!sharesVertex(s, k, t, carrier) || count >= 3u || passesThrough(line, s.p_px[k])) continue;
-        lines[lineAt(line)].through[2u * count] = s.p_px[k].x;
-        lines[lineAt(line)].through[2u * count + 1u] = s.p_px[k].y;
-        lines[lineAt(line)].through_count = count + 1u;
-    }
+    return signsAtVertices(s, p, q, frame.origin) == 3 && signsAtVertices(t, p, q, frame.origin) == 3;
 }
 
 bool addFlat(LeafLine line) {
@@ -67,25 +48,18 @@ bool addFlat(LeafLine line) {
 }
 
 bool addPair(uint i, uint j, uint first_line, uint first_flat) {
+    if ((push.flags & kEveryDepthLine) == 0 && !changesOrder(i, j)) return true;
     LeafLine line = emptyLine(depthLineOf(localPlaneAt(i).plane, localPlaneAt(j).plane));
     Carrier c = line.carrier;
-    if ((push.flags & kEveryDepthLine) == 0 && !changesOrder(i, j, c)) return true;
     if (c.A.hi == 0.0lf && c.B.hi == 0.0lf) return true;
-    uint known = first_line;
-    while (known < leaf.lines && LineRef(lines[lineAt(known)].line_i, lines[lineAt(known)].line_j) != c.ref) {
-        ++known;
-        ++spent;
-    }
-    bool fresh = known == leaf.lines;
-    if (fresh) {
-        for (uint h = first_flat; h < leaf.horizontals; ++h)
-            if (LineRef(horizontals[horizontalAt(h)].line_i, horizontals[horizontalAt(h)].line_j) == c.ref) return true;
-        if (isHorizontal(c)) return addFlat(line);
-        if (!clipDepthLine(frame, line)) return true;
-        if (leaf.lines >= kLeafLines) return false;
-        lines[lineAt(leaf.lines++)] = newLine(line, 0u);
-    }
-    noteSharedVertices(i, j, known, c);
+    for (uint l = first_line; l < leaf.lines; ++l, ++spent)
+        if (LineRef(lines[lineAt(l)].line_i, lines[lineAt(l)].line_j) == c.ref) return true;
+    for (uint h = first_flat; h < leaf.horizontals; ++h, ++spent)
+        if (LineRef(horizontals[horizontalAt(h)].line_i, horizontals[horizontalAt(h)].line_j) == c.ref) return true;
+    if (isHorizontal(c)) return addFlat(line);
+    if (!clipDepthLine(frame, line)) return true;
+    if (leaf.lines >= kLeafLines) return false;
+    lines[lineAt(leaf.lines++)] = newLine(line, 0u);
     return true;
 }
 
@@ -93,7 +67,7 @@ void main() {
     if (!openLeaf()) return;
     uint count = candidatePairs(), first_line = leaf.lines, first_flat = leaf.horizontals;
     bool fits = true;
-    for (uint k = 0u; fits && k < count; ++k, spent += 60u) {
+    for (uint k = 0u; fits && k < count; ++k, spent += 30u) {
         uint both = words[wordAt(kWordPairs + k)];
         fits = addPair(both & 255u, both >> 8, first_line, first_flat);
     }

@@ -25,25 +25,9 @@ EDGEWISE_FN bool separates(EDGEWISE_IN(ScreenTriangle) s, EDGEWISE_IN(ScreenTria
     return false;
 }
 
-/// Whether a line of equal depth passes within 2^-40 px of a point.
-EDGEWISE_FN bool passesNear(EDGEWISE_IN(Carrier) depth_line, dvec2 p) {
-    double f = depthDifference(depth_line, p).hi;
-    return abs(f) <= EDGEWISE_REAL(9.094947017729282e-13) * hypotenuse(depth_line.A.hi, depth_line.B.hi);
-}
-
-/// A vertex that both triangles share lies in both planes, as far as rounded planes can say so: those of nearly
-/// coplanar triangles may be equal elsewhere, and then the planes decide, not the vertex.
-EDGEWISE_FN bool sharesVertex(EDGEWISE_IN(ScreenTriangle) t, int k, EDGEWISE_IN(ScreenTriangle) other,
-                              EDGEWISE_IN(Carrier) depth_line) {
-    uint v = t.vertex[k];
-    bool shared_id = v == other.vertex[0] || v == other.vertex[1] || v == other.vertex[2];
-    return shared_id && passesNear(depth_line, t.p_px[k]);
-}
-
-/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative. A
-/// shared vertex says nothing. Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
-EDGEWISE_FN int signsAtVertices(EDGEWISE_IN(ScreenTriangle) t, EDGEWISE_IN(ScreenTriangle) other,
-                                EDGEWISE_IN(LocalPlane) p, EDGEWISE_IN(LocalPlane) q, EDGEWISE_IN(Carrier) depth_line,
+/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative.
+/// Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
+EDGEWISE_FN int signsAtVertices(EDGEWISE_IN(ScreenTriangle) t, EDGEWISE_IN(LocalPlane) p, EDGEWISE_IN(LocalPlane) q,
                                 dvec2 origin) {
     int signs = 0;
     for (int k = 0; k < 3; ++k) {
@@ -51,7 +35,6 @@ EDGEWISE_FN int signsAtVertices(EDGEWISE_IN(ScreenTriangle) t, EDGEWISE_IN(Scree
         double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
         double far = (abs(p.a) + abs(q.a)) * abs(v.x) + (abs(p.b) + abs(q.b)) * abs(v.y);
         double error = p.error + q.error + EDGEWISE_REAL(8.881784197001252e-16) * far;
-        if (sharesVertex(t, k, other, depth_line)) continue;
         if (d > -error) signs |= 1;
         if (d < error) signs |= 2;
     }

@@ -1,7 +1,6 @@
 // GLSL only: the buffers of the visibility stage, and what is read from them.
 #include "shared/real_bits.glsl"
 #include "shared/double_double.glsl"
-#include "shared/hypotenuse.glsl"
 #include "shared/layouts.glsl"
 #include "shared/visibility_layouts.glsl"
 #include "shared/visibility_types.glsl"

@@ -25,8 +25,8 @@ struct GpuRowPiece {
 struct GpuLine {
     double a[2], b[2], A[2], B[2], C[2];
     double y0[2], y1[2], in0[2], in1[2];  // OrderKeys; of a horizontal in0 is its key
-    double enter[4], exit[4], slope, x_low, x_high, through[6];
-    uint key_low, key_high, line_i, line_j, bounds, through_count;
+    double enter[4], exit[4], slope, x_low, x_high;
+    uint key_low, key_high, line_i, line_j, bounds, pad;
     int side_before, side_after;
 };
 

@@ -17,13 +17,12 @@ GpuLine newLine(LeafLine l, uint mark) {
     line.slope = l.slope;
     line.x_low = l.x_low;
     line.x_high = l.x_high;
-    line.through = double[6](0.0lf, 0.0lf, 0.0lf, 0.0lf, 0.0lf, 0.0lf);
     line.key_low = key.x;
     line.key_high = key.y;
     line.line_i = l.carrier.ref.i;
     line.line_j = l.carrier.ref.j;
     line.bounds = mark;
-    line.through_count = 0u;
+    line.pad = 0u;
     line.side_before = l.side_before;
     line.side_after = l.side_after;
     return line;

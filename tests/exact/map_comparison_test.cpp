@@ -29,6 +29,11 @@ Window windowOf(const exact::Region& box) {
     return {int(box.x0) - 1, int(box.y0) - 1, int(box.x1) + 1, int(box.y1) + 1};
 }
 
+/// The order of two lines in a slab is decided by abscissae that carry five roundings each, of at most 2^-50
+/// px in a cell of 16 px: what lies between closer lines may be exchanged, along both axes. px a px of the
+/// box.
+constexpr double kOrderShare = 2 * 5 * 0x1p-50 * 2;
+
 MapReport judged(const RandomScene& random, int reach) {
     const exact::Region box = boxAround(random.centre, reach);
     return judge::compareMaps(random.scene, exact::visibleFaces(random.scene, box),
@@ -66,6 +71,7 @@ class MapComparison : public testing::TestWithParam<SceneKind> {
             const MapReport report = judged(random, reach);
             EXPECT_EQ(report.ownership_errors, 0u) << "seed " << seed << ": " << report.first;
             EXPECT_LE(report.max_area_error_px2, report.area_bound_px2) << "seed " << seed;
+            EXPECT_LE(report.small_wrong_area_px2, kOrderShare * 2 * reach) << "seed " << seed;
             all.add(report);
             if (factor == 1) met += witness::countHardCases(random.scene);
         }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 
 #include "analytic/exact/kernel_weights.h"
@@ -87,31 +86,6 @@ exact::Rational depthAt(const ScreenScene& screen, const DepthPlane& plane, glm:
            exact::Rational(plane.z_anchor);
 }
 
-/// The distance of p from the line where the planes are equal, px; 0 beyond what passesNear takes for a pass.
-double missed(const ScreenScene& screen, const DepthPlane& p, const DepthPlane& q, glm::dvec2 at_px) {
-    const exact::Rational f = depthAt(screen, p, at_px) - depthAt(screen, q, at_px);
-    const auto by = [](double a, double b) {
-        return double(exact::Rational(exact::Rational(a) - exact::Rational(b)));
-    };
-    const double gradient = std::hypot(by(p.dz_dx, q.dz_dx), by(p.dz_dy, q.dz_dy));
-    const double distance = gradient > 0 ? std::abs(double(f)) / gradient : 0;
-    return distance <= 0x1p-40 * (1 + 0x1p-20) ? distance : 0;
-}
-
-/// How far beyond roundings a weight may be off where two triangles share a vertex: there visibility leads
-/// the line of equal depth through the vertex, which rounded planes of nearly coplanar triangles miss by up
-/// to 2^-40 px (passesNear). A line moved by that at one end moves less than that times the support's
-/// diagonal of area.
-double movedAtVertices(const ScreenScene& screen, const Prefilter& filter) {
-    double moved_px = 0;
-    for (const ScreenTriangle& s : screen.triangles)
-        for (const ScreenTriangle& t : screen.triangles)
-            for (std::size_t k = 0; s.plane < t.plane && k < 3; ++k)
-                if (std::ranges::find(t.vertex, s.vertex[k]) != t.vertex.end())
-                    moved_px += missed(screen, screen.planes[s.plane], screen.planes[t.plane], s.p_px[k]);
-    return moved_px * 2 * std::numbers::sqrt2 * filter.radius * evaluate(filter, 0, 0);
-}
-
 /// `now` is the scene written in another way, in which owner i was was[i].
 Outcome sameWeights(const Trial& trial, const WorldScene& now, const std::vector<Owner>& was) {
     Weighed a(trial.scene, trial), b(now, trial);
@@ -120,11 +94,9 @@ Outcome sameWeights(const Trial& trial, const WorldScene& now, const std::vector
         const auto old = before.find(was[owner]);
         if (old == before.end() || !samePlane(old->second, plane)) return kNotAsked;
     }
-    const double moved =
-        movedAtVertices(a.screen(), trial.filter) + movedAtVertices(b.screen(), trial.filter);
     return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
         const test::PixelParts x = a.pixel(p), y = b.pixel(p);
-        std::string what = differences(x, y, was, roundingsOf(x.terms) + roundingsOf(y.terms) + moved);
+        std::string what = differences(x, y, was, roundingsOf(x.terms) + roundingsOf(y.terms));
         return what.empty() ? Outcome{} : wrong(p, std::move(what));
     });
 }
@@ -145,9 +117,8 @@ Outcome samePicture(const ImageBuffer& whole, const ImageBuffer& part, const cha
 /// That other cells, which cut the scene elsewhere, leave all but roundings.
 Outcome nearPicture(const Trial& trial, const ImageBuffer& a, const ImageBuffer& b) {
     Weighed product(trial.scene, trial);
-    const double moved = movedAtVertices(product.screen(), trial.filter);
     return forPixels(a.box, [&](glm::ivec2 p) -> Outcome {
-        const double allowed = 2 * product.pixel(p).colorError() + moved;
+        const double allowed = 2 * product.pixel(p).colorError();
         const glm::dvec4 off = glm::abs(a.rgba[a.index(p.x, p.y)] - b.rgba[b.index(p.x, p.y)]);
         const double most = std::max(std::max(off.r, off.g), std::max(off.b, off.a));
         if (most <= allowed) return {};
@@ -177,9 +148,8 @@ std::map<Owner, exact::Real> oracleWeights(const std::vector<exact::Face>& faces
     return weights;
 }
 
-Outcome judgePixel(std::map<Owner, exact::Real> off, const test::PixelParts& parts, glm::ivec2 pixel,
-                   double moved) {
-    const double allowed = roundingsOf(parts.terms) + moved;
+Outcome judgePixel(std::map<Owner, exact::Real> off, const test::PixelParts& parts, glm::ivec2 pixel) {
+    const double allowed = roundingsOf(parts.terms);
     for (const OwnerWeight& w : parts.entries) off[w.owner] -= exact::Real(w.weight) / std::pow(2.0, 60);
     for (const auto& [owner, error] : off)
         if (std::abs(static_cast<double>(error)) > allowed)
@@ -236,13 +206,12 @@ Outcome ownersAreTheOracles(const Trial& trial) {
     Weighed product(boxed.scene, boxed);
     const exact::Rational radius(boxed.filter.radius);
     const auto faces = facesAround(product.screen(), boxed.box, boxed.filter.radius);
-    const double moved = movedAtVertices(product.screen(), boxed.filter);
     Outcome outcome = forPixels(boxed.box, [&](glm::ivec2 p) {
         const exact::Point sample = sampleOf(p);
         const auto truth = oracleWeights(faces, [&](const exact::Face& face) {
             return exact::Real(exact::boxWeight(face, sample, radius));
         });
-        return judgePixel(truth, product.pixel(p), p, moved);
+        return judgePixel(truth, product.pixel(p), p);
     });
     if (outcome.wrong) outcome.wrong->filter = boxed.filter.name;
     return outcome;
@@ -253,13 +222,12 @@ Outcome weightsAreTheOracles(const Trial& trial) {
     Weighed product(trial.scene, trial);
     const auto faces = facesAround(product.screen(), trial.box, trial.filter.radius);
     const exact::KernelWeights kernel(trial.filter);
-    const double moved = movedAtVertices(product.screen(), trial.filter);
     witness::Dice dice(trial.seed);
     for (int k = 0; k < kPixels; ++k) {
         const glm::ivec2 p = pixelOf(trial.box, dice);
         const auto truth =
             oracleWeights(faces, [&](const exact::Face& face) { return kernel.of(face, sampleOf(p)).value; });
-        Outcome outcome = judgePixel(truth, product.pixel(p), p, moved);
+        Outcome outcome = judgePixel(truth, product.pixel(p), p);
         if (outcome.wrong) return outcome;
     }
     return {};
@@ -267,14 +235,12 @@ Outcome weightsAreTheOracles(const Trial& trial) {
 
 Outcome weightsSumToOne(const Trial& trial) {
     Weighed product(trial.scene, trial);
-    const double moved = movedAtVertices(product.screen(), trial.filter);
     return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
         const test::PixelParts parts = product.pixel(p);
         if (parts.sum() != kOne) return wrong(p, "the weights do not sum to 1");
         if (parts.label_conflicts != 0) return wrong(p, "the border's labels do not chain");
         for (const OwnerWeight& w : parts.entries)
-            if (std::ldexp(static_cast<double>(w.weight), -kWeightBits) <
-                    -(roundingsOf(parts.terms) + moved) &&
+            if (std::ldexp(static_cast<double>(w.weight), -kWeightBits) < -roundingsOf(parts.terms) &&
                 !hasNegativeLobes(trial.filter))
                 return wrong(p, fmt::format("owner {} has a negative weight", w.owner));
         return {};
@@ -405,10 +371,9 @@ Outcome omissionsDoNotShow(const Trial& trial) {
     RenderOptions all;
     all.no_skip = {"all"};
     Weighed a(trial.scene, trial), b(trial.scene, trial, all);
-    const double moved = movedAtVertices(a.screen(), trial.filter);
     return forPixels(trial.box, [&](glm::ivec2 p) -> Outcome {
         const test::PixelParts x = a.pixel(p), y = b.pixel(p);
-        std::string what = differences(x, y, {}, roundingsOf(x.terms) + roundingsOf(y.terms) + moved);
+        std::string what = differences(x, y, {}, roundingsOf(x.terms) + roundingsOf(y.terms));
         return what.empty() ? Outcome{} : wrong(p, std::move(what));
     });
 }

@@ -48,7 +48,7 @@ Outcome ownersAreTheOracles(const Trial& trial);
 /// The trial's kernel's weights of a few pixels are the oracle's 30 digits, within the same bound.
 Outcome weightsAreTheOracles(const Trial& trial);
 /// Weights sum to exactly 2^60, labels chain along the border, and positive kernels give no weight below 0 by
-/// more than roundings and what visibility moves at shared vertices.
+/// more than roundings.
 Outcome weightsSumToOne(const Trial& trial);
 /// Moved by whole cells the picture has the same bits; by whole pixels it is the same but for roundings, for
 /// other cells may name another owner along a few roundings of their border. [E16]
@@ -65,8 +65,7 @@ Outcome threadsAndCropsDoNotShow(const Trial& trial);
 Outcome coplanarTrianglesShareAPlane(const Trial& trial);
 /// The depth plane of a triangle has its corners' depths, but for the rounding of its three coefficients.
 Outcome planesPassThroughTheirCorners(const Trial& trial);
-/// What the planner leaves out changes weights by roundings only, and by what visibility moves at shared
-/// vertices.
+/// What the planner leaves out changes weights by roundings only.
 Outcome omissionsDoNotShow(const Trial& trial);
 
 const std::vector<Property>& allProperties();
