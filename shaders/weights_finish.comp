@@ -73,5 +73,8 @@ void main() {
     if (ownerCount() > kMostOwners && kind == kPixelSums) kind = kPixelHanded;
     if (kind == kPixelSums) sums[sumIndex(place)] += 1l << 60;
     pixels[stateIndex()] = uvec2(kind, owner);
+    atomicAdd(status.terms, state.touched);
+    if (kind == kPixelWhole) atomicAdd(status.whole, 1u);
+    if (kind == kPixelHanded) handed[atomicAdd(status.handed, 1u)] = pixelIndex();
     counts[pixelIndex()] = kind == kPixelSums ? entriesOf() : kind == kPixelWhole ? 1u : 0u;
 }

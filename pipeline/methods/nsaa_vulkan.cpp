@@ -113,7 +113,6 @@ class VulkanStages : public CpuStages {
         result.counts["label_conflicts"] += weighed.label_conflicts;
         result.counts["pixel_owner_pairs"] += weighed.pairs;
         result.counts["pixels_handed_back"] = weighed.handed;
-        result.notes.push_back("made on " + device_.traits().name);
         if (why_not_shaded_)
             result.notes.push_back("weighed, shaded and blended on the CPU: " + *why_not_shaded_);
         else if (why_not_weighed_)
@@ -130,9 +129,9 @@ class VulkanStages : public CpuStages {
   private:
     static IdLists readBack(const PassGraph& graph, const DeviceLists& lists, const CellGrid& grid) {
         IdLists out;
-        const auto offsets = graph[lists.offsets].view<std::uint32_t>(grid.size() + 1);
+        const auto offsets = graph[lists.offsets].read<std::uint32_t>(grid.size() + 1);
         out.offsets.assign(offsets.begin(), offsets.end());
-        const auto ids = graph[lists.ids].view<std::uint32_t>(offsets.back());
+        const auto ids = graph[lists.ids].read<std::uint32_t>(offsets.back());
         out.ids.assign(ids.begin(), ids.end());
         return out;
     }
@@ -267,8 +266,8 @@ class VulkanStages : public CpuStages {
                                        const WeightEntries& entries) {
         const auto ask = [&, entries](const PassGraph& g) {
             const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
-            const auto offsets = g[entries.offsets].view<std::uint32_t>(pixels + 1);
-            const auto owners = g[entries.owners].view<std::uint32_t>(offsets[pixels]);
+            const auto offsets = g[entries.offsets].read<std::uint32_t>(pixels + 1);
+            const auto owners = g[entries.owners].read<std::uint32_t>(offsets[pixels]);
             for (std::size_t p = 0; p < pixels; ++p)
                 for (std::size_t e = offsets[p]; e < offsets[p + 1]; ++e)
                     if (isStack(owners[e])) requireShadable(stacks.layersOf(owners[e]), pixelOf(box, p));
@@ -285,25 +284,25 @@ class VulkanStages : public CpuStages {
     static Shade shadeOnHost(const NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& box,
                              const PassGraph& graph, const ShadeEntries& entries, std::size_t e) {
         const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
-        const auto offsets = graph[entries.offsets].view<std::uint32_t>(pixels + 1);
+        const auto offsets = graph[entries.offsets].read<std::uint32_t>(pixels + 1);
         const auto after = std::upper_bound(offsets.begin(), offsets.end(), e);
         const auto pixel = static_cast<std::size_t>(after - offsets.begin()) - 1;
         const glm::dvec2 sample = pixelOf(box, pixel) + frame.offset();
         NsaaFrame::Offsets points;
         if (entries.points) {
-            const auto ends = graph[*entries.point_ends].view<std::uint32_t>(e + 1);
+            const auto ends = graph[*entries.point_ends].read<std::uint32_t>(e + 1);
             const std::size_t begin = e == 0 ? 0 : ends[e - 1];
-            points = graph[*entries.points].view<glm::dvec2>(ends[e]).subspan(begin);
+            points = graph[*entries.points].read<glm::dvec2>(ends[e] - begin, begin * sizeof(glm::dvec2));
         }
-        const auto owner = graph[entries.owners].view<std::uint32_t>(e + 1)[e];
+        const auto owner = graph[entries.owners].read<std::uint32_t>(1, e * sizeof(std::uint32_t))[0];
         return frame.shade(stacks.layersOf(owner), sample, points);
     }
 
     static WeightTile readBack(const PassGraph& graph, const WeightEntries& entries, const PixelBox& box) {
         const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
-        const auto offsets = graph[entries.offsets].view<std::uint32_t>(pixels + 1);
-        const auto owners = graph[entries.owners].view<std::uint32_t>(offsets[pixels]);
-        const auto weights = graph[entries.weights].view<FixedWeight>(offsets[pixels]);
+        const auto offsets = graph[entries.offsets].read<std::uint32_t>(pixels + 1);
+        const auto owners = graph[entries.owners].read<std::uint32_t>(offsets[pixels]);
+        const auto weights = graph[entries.weights].read<FixedWeight>(offsets[pixels]);
         WeightTile tile{box, {offsets.begin(), offsets.end()}, {}, {}};
         for (std::size_t e = 0; e < owners.size(); ++e) tile.entries.push_back({owners[e], weights[e]});
         return tile;
@@ -325,8 +324,8 @@ class VulkanStages : public CpuStages {
     static void store(const PassGraph& graph, const BlendedPixels& from, const PixelBox& strip,
                       ImageBuffer& image) {
         const std::size_t count = static_cast<std::size_t>(strip.width()) * strip.height();
-        const auto rgba = graph[from.rgba].view<glm::dvec4>(count);
-        const auto edge = graph[from.edge].view<float>(count);
+        const auto rgba = graph[from.rgba].read<glm::dvec4>(count);
+        const auto edge = graph[from.edge].read<float>(count);
         std::size_t p = 0;
         for (int y = strip.y0; y < strip.y1; ++y)
             for (int x = strip.x0; x < strip.x1; ++x, ++p) {

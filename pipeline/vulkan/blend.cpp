@@ -8,8 +8,10 @@
 namespace edgewise::vulkan {
 namespace {
 
-/// lavapipe stops a loop, without a word, after 65535 turns.
-constexpr std::uint32_t kMostEntries = 65000;
+/// That a fragment sums.
+std::uint32_t mostEntries(const Device& device) {
+    return device.traits().loop_turns - 500;
+}
 
 std::size_t pixelsOf(const PixelBox& box) {
     return static_cast<std::size_t>(box.width()) * box.height();
@@ -20,7 +22,7 @@ std::size_t pixelsOf(const PixelBox& box) {
 BlendPass::BlendPass(const Device& device)
     : device_(device),
       blend_(device, {"blend.vert", "", "blend.frag"}, kBlendBindings, sizeof(BlendPush), {},
-             {kMostEntries}) {}
+             {mostEntries(device)}) {}
 
 BlendedPixels BlendPass::addTo(PassGraph& graph, const BlendEntries& entries) {
     const auto box = entries.box;
@@ -51,15 +53,16 @@ void BlendPass::record(const PassContext& pass, const BlendEntries& entries, con
 /// As pipeline/blend sums.
 void BlendPass::finish(const PassGraph& graph, const BlendEntries& entries, const BlendedPixels& out) {
     const std::size_t count = pixelsOf(entries.box());
-    const auto offsets = graph[entries.offsets].view<std::uint32_t>(count + 1);
-    const auto weights = graph[entries.weights].all<std::int64_t>();
-    const auto shades = graph[entries.shades].all<glm::dvec4>();
+    const auto offsets = graph[entries.offsets].read<std::uint32_t>(count + 1);
     handed_back_ = 0;
     for (std::size_t p = 0; p < count; ++p) {
-        if (offsets[p + 1] - offsets[p] <= kMostEntries) continue;
+        if (offsets[p + 1] - offsets[p] <= mostEntries(device_)) continue;
         ++handed_back_;
+        const std::size_t first = offsets[p], size = offsets[p + 1] - first;
+        const auto weights = graph[entries.weights].read<std::int64_t>(size, first * sizeof(std::int64_t));
+        const auto shades = graph[entries.shades].read<glm::dvec4>(size, first * sizeof(glm::dvec4));
         f64::PixelSum sum{glm::dvec3(0.0), 0, 0.0, glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
-        for (std::uint32_t e = offsets[p]; e < offsets[p + 1]; ++e)
+        for (std::size_t e = 0; e < size; ++e)
             sum = f64::withOwner(sum, weights[e], glm::dvec3(shades[e]), shades[e].a);
         graph[out.rgba].view<glm::dvec4>(count)[p] = glm::dvec4(sum.color, f64::alphaOf(sum));
         graph[out.edge].view<float>(count)[p] = f64::contrastOf(sum) > kEdgeContrast ? 1.0f : 0.0f;

@@ -63,6 +63,7 @@ DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
     DeviceTraits traits;
     traits.name = properties.deviceName.data();
     traits.real_gpu = properties.deviceType != vk::PhysicalDeviceType::eCpu;
+    if (!traits.real_gpu) traits.loop_turns = 65535;
     traits.fp64 = base.shaderFloat64, traits.int64 = base.shaderInt64;
     traits.int64_atomics = newer.shaderBufferInt64Atomics;
     traits.geometry_shader = base.geometryShader, traits.fragment_stores = base.fragmentStoresAndAtomics;

@@ -20,7 +20,10 @@ struct DeviceTraits {
     std::uint32_t max_stage_buffers = 0;  ///< storage buffers that one shader may bind
     std::size_t max_storage_bytes = 0;    ///< of one storage buffer's binding
     std::size_t max_heap_bytes = 0;       ///< of the largest device-local heap
-    double tick_ns = 0.0;                 ///< of a timestamp; 0: the queue has none
+    /// Turns that the loops of the invocations which run together may take in all: lavapipe stops them then,
+    /// without a word.
+    std::uint32_t loop_turns = 0xffffffff;
+    double tick_ns = 0.0;  ///< of a timestamp; 0: the queue has none
 };
 
 /// Storage buffers that the pipeline's hungriest stage, visibility, binds.

@@ -15,11 +15,15 @@ std::size_t roomOf(std::size_t entries) {
 }
 
 void sortLongLists(const PassGraph& graph, const DeviceLists& lists, std::size_t count) {
-    const auto offsets = graph[lists.offsets].view<uint>(count + 1);
-    const auto ids = graph[lists.ids].view<uint>(offsets[count]);
-    for (std::size_t i = 0; i < count; ++i)
-        if (offsets[i + 1] - offsets[i] > kSortLongest)
-            std::sort(ids.begin() + offsets[i], ids.begin() + offsets[i + 1]);
+    const auto offsets = graph[lists.offsets].read<uint>(count + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t size = offsets[i + 1] - offsets[i];
+        if (size <= kSortLongest) continue;
+        const auto ids = graph[lists.ids].read<uint>(size, offsets[i] * sizeof(uint));
+        std::vector<uint> sorted(ids.begin(), ids.end());
+        std::sort(sorted.begin(), sorted.end());
+        std::ranges::copy(sorted, graph[lists.ids].view<uint>(size, offsets[i] * sizeof(uint)).begin());
+    }
 }
 
 }  // namespace

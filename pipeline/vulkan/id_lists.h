@@ -15,7 +15,7 @@ struct DeviceLists {
 
 /// Of lists that the graph has run: entries of all together.
 inline std::size_t entriesOf(const PassGraph& graph, Resource offsets, std::size_t lists) {
-    return graph[offsets].view<std::uint32_t>(lists + 1)[lists];
+    return graph[offsets].read<std::uint32_t>(1, lists * sizeof(std::uint32_t))[0];
 }
 
 /// Sorts lists. Outlives the runs of the graphs that it adds to.

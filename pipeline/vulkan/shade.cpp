@@ -8,22 +8,24 @@ namespace {
 
 constexpr std::uint32_t kGroupSize = 64, kMostGroups = 65535;
 
-/// lavapipe stops a loop, without a word, when the loops of the invocations that it runs together have taken
-/// 65535 turns; those are 4, 8 or 16, each at its own pace in the worst case.
-constexpr std::uint32_t kMostTurns = 65535 / 16;
+/// Of one invocation: 4, 8 or 16 run together, each at its own pace in the worst case.
+std::uint32_t mostTurns(const Device& device) {
+    return device.traits().loop_turns / 16;
+}
 
-Specialization constantsOf(const ShadeTables& tables) {
+Specialization constantsOf(const Device& device, const ShadeTables& tables) {
     return {tables.uses, static_cast<std::uint32_t>(std::max<std::size_t>(tables.banks.size(), 1)),
-            kMostTurns};
+            mostTurns(device)};
 }
 
 }  // namespace
 
 ShadePass::ShadePass(const Device& device, const ShadeTables& tables)
     : uses_(tables.uses),
-      may_hand_back_((tables.uses & (kUsesStacks | kUsesPoints)) != 0 || tables.most_turns > kMostTurns / 2),
+      may_hand_back_((tables.uses & (kUsesStacks | kUsesPoints)) != 0 ||
+                     tables.most_turns > mostTurns(device) / 2),
       scene_(device, tables),
-      shade_(device, "shade.comp", kShadeBindings, sizeof(ShadePush), constantsOf(tables)) {}
+      shade_(device, "shade.comp", kShadeBindings, sizeof(ShadePush), constantsOf(device, tables)) {}
 
 Resource ShadePass::addTo(PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host) {
     assert(!(uses_ & kUsesStacks) || entries.stack_first);
@@ -81,13 +83,14 @@ void ShadePass::record(const PassContext& pass, const ShadeEntries& entries, Res
 
 void ShadePass::finish(const PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host,
                        Resource colors, Resource status) {
-    handed_back_ = graph[status].view<std::uint32_t>(1)[0];
+    handed_back_ = graph[status].read<std::uint32_t>(1)[0];
     if (handed_back_ == 0) return;
-    const auto shades = graph[colors].view<glm::dvec4>(entries.count());
+    const auto shades = graph[colors].read<glm::dvec4>(entries.count());
+    const auto made = graph[colors].view<glm::dvec4>(shades.size());
     for (std::size_t e = 0; e < shades.size(); ++e) {
         if (shades[e].a >= 0.0) continue;
         const Shade shade = on_host(e);
-        shades[e] = glm::dvec4(shade.color, shade.alpha);
+        made[e] = glm::dvec4(shade.color, shade.alpha);
     }
 }
 

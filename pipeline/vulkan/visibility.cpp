@@ -85,13 +85,16 @@ class VisibilityPasses::Work {
     void submit(Record&& record);
     void dispatch(const vk::raii::CommandBuffer& commands, ComputePass& pass, std::uint32_t first,
                   std::uint32_t count, std::uint32_t group);
-    GpuVisibilityStatus& status() const { return status_->view<GpuVisibilityStatus>(1)[0]; }
+    /// The host's copy: the device has it while a submission runs.
+    GpuVisibilityStatus& status() { return state_; }
+    const GpuVisibilityStatus& status() const { return state_; }
     Buffer& grown(std::optional<Buffer>& buffer, const char* name, std::size_t bytes);
 
     const Device& device_;
     ComputePass roots_, collect_roots_, collect_parts_, sheet_, big_sheet_, split_;
     ComputePass lines_, depth_lines_, crossings_, keys_, sweep_, exact_sweep_;
     VisibilityPush push_{};
+    GpuVisibilityStatus state_{};
     std::vector<ComputePass::Range> bindings_;
     const Buffer *triangles_ = nullptr, *planes_ = nullptr, *offsets_ = nullptr, *ids_ = nullptr;
     std::optional<Buffer> see_through_, cells_, kept_, leaf_cells_, status_, pieces_, rows_, handed_, table_,
@@ -145,7 +148,7 @@ void VisibilityPasses::Work::makeBuffers(const VisibilityInput& input, const Roo
     grown(local_planes_, "local planes", kLeafBatch * kLeafTriangles * sizeof(GpuLocalPlane));
     grown(breaks_, "breaks", kLeafBatch * kLeafBreaks * sizeof(GpuBreak));
     grown(words_, "leaf words", kLeafBatch * kLeafWords * 4);
-    std::ranges::fill(leaf_cells_->all<std::uint32_t>(), 0u);
+    std::ranges::fill(leaf_cells_->view<std::uint32_t>(4 * rooms.cells), 0u);
     status() = {};
     status().cells = static_cast<std::uint32_t>(input.grid.size());
     status().cells_room = static_cast<std::uint32_t>(rooms.cells);
@@ -165,6 +168,7 @@ void VisibilityPasses::Work::submit(Record&& record) {
                                               &*horizontals_, &*tracks_,        &*events_, &*key_list_,
                                               &*items_,       &*local_planes_,  &*breaks_, &*words_})
         bindings_.emplace_back(*buffer);
+    status_->view<GpuVisibilityStatus>(1)[0] = state_;
     const auto start = std::chrono::steady_clock::now();
     const vk::raii::CommandBuffers lists(device_.handle(),
                                          {*device_.commandPool(), vk::CommandBufferLevel::ePrimary, 1});
@@ -173,6 +177,7 @@ void VisibilityPasses::Work::submit(Record&& record) {
     record(commands);
     commands.end();
     device_.run(commands);
+    state_ = status_->read<GpuVisibilityStatus>(1)[0];
     for (ComputePass* pass : {&roots_, &collect_roots_, &collect_parts_, &sheet_, &big_sheet_, &split_,
                               &lines_, &depth_lines_, &crossings_, &keys_, &sweep_, &exact_sweep_})
         pass->forgetSets();
@@ -203,13 +208,15 @@ void VisibilityPasses::Work::level(std::uint32_t first, std::uint32_t count, boo
 /// As many cells at a time as the scratch memory holds.
 void VisibilityPasses::Work::sheets(std::uint32_t first, std::uint32_t count) {
     const std::size_t table_most = most(device_, 8), crossings_most = most(device_, sizeof(GpuCrossing));
-    const auto cells = cells_->all<GpuCell>();
+    const auto read = cells_->read<GpuCell>(count, first * sizeof(GpuCell));
+    const std::vector<GpuCell> cells(read.begin(), read.end());
     for (std::uint32_t i = first; i < first + count;) {
         const std::uint32_t begin = i;
         std::size_t table = 0, crossings = 0;
         for (; i < first + count; ++i) {
-            if (cells[i].state != kCellOpen || cells[i].count > push_.sheet_most) continue;
-            const std::size_t t = tableNeed(cells[i].count), c = crossingsNeed(cells[i].count);
+            const GpuCell& cell = cells[i - first];
+            if (cell.state != kCellOpen || cell.count > push_.sheet_most) continue;
+            const std::size_t t = tableNeed(cell.count), c = crossingsNeed(cell.count);
             if (i > begin && (table + t > table_most || crossings + c > crossings_most)) break;
             table += t, crossings += c;
         }
@@ -227,14 +234,14 @@ void VisibilityPasses::Work::sheets(std::uint32_t first, std::uint32_t count) {
 
 /// Leaves whose loops the device may have stopped are the host's; what it emitted of them counts for nothing.
 void VisibilityPasses::Work::handBackBatch(std::uint32_t begin, std::uint32_t size) {
-    const auto lists = leaf_cells_->all<std::uint32_t>();
-    const auto leaves = leaves_->view<GpuLeaf>(size);
-    for (std::uint32_t i = 0; i < size; ++i) {
-        std::uint32_t& done = lists[2 * status().cells_room + begin + i];
-        done = 0;
+    const auto ids = leaf_cells_->read<std::uint32_t>(size, begin * sizeof(std::uint32_t));
+    const auto leaves = leaves_->read<GpuLeaf>(size);
+    const std::size_t done = (2 * std::size_t{status().cells_room} + begin) * sizeof(std::uint32_t);
+    std::ranges::fill(leaf_cells_->view<std::uint32_t>(size, done), 0u);
+    const auto handed = handed_->view<std::uint32_t>(status().handed + size);
+    for (std::uint32_t i = 0; i < size; ++i)
         if (leaves[i].state != kLeafHanded && leaves[i].state != kLeafUndecided)
-            handed_->all<std::uint32_t>()[status().handed++] = lists[begin + i];
-    }
+            handed[status().handed++] = ids[i];
     status().overruns = 0;
 }
 
@@ -275,7 +282,7 @@ VisibilityPasses::Work::Rooms VisibilityPasses::Work::larger(const Rooms& rooms)
 bool VisibilityPasses::Work::attempt(const VisibilityInput& input, const Rooms& rooms) {
     makeBuffers(input, rooms);
     const auto roots = static_cast<std::uint32_t>(input.grid.size());
-    status().kept = offsets_->view<std::uint32_t>(roots + 1)[roots];
+    status().kept = offsets_->read<std::uint32_t>(1, roots * sizeof(std::uint32_t))[0];
     std::uint32_t first = 0, count = roots;
     while (count > 0) {
         level(first, count, first == 0);
@@ -297,13 +304,13 @@ bool VisibilityPasses::Work::attempt(const VisibilityInput& input, const Rooms& 
 /// Cells that the device could not do are done here, with the same bits.
 void VisibilityPasses::Work::handBack(const VisibilityInput& input, CellOutput& out) {
     CellVisibility visibility;
-    for (const std::uint32_t id : handed_->view<std::uint32_t>(status().handed)) {
-        const GpuCell& c = cells_->all<GpuCell>()[id];
+    for (const std::uint32_t id : handed_->read<std::uint32_t>(status().handed)) {
+        const GpuCell c = cells_->read<GpuCell>(1, id * sizeof(GpuCell))[0];
         const glm::dvec2 low(c.min_x, c.min_y);
         const bool listed = c.untouched != 0 && id < input.grid.size();
-        const auto list = (listed ? ids_ : &*kept_)
-                              ->all<std::uint32_t>()
-                              .subspan(c.untouched != 0 ? c.source : c.begin, c.count);
+        const std::size_t begin = c.untouched != 0 ? c.source : c.begin;
+        const auto list =
+            (listed ? ids_ : &*kept_)->read<std::uint32_t>(c.count, begin * sizeof(std::uint32_t));
         visibility.runPart(input.scene, {low, low + c.size_px}, {c.origin_x, c.origin_y}, list, input.options,
                            out);
     }
@@ -311,15 +318,16 @@ void VisibilityPasses::Work::handBack(const VisibilityInput& input, CellOutput& 
 
 void VisibilityPasses::Work::merge(const VisibilityInput& input, CellOutput& out) {
     const GpuVisibilityStatus& s = status();
-    const auto done = leaf_cells_->all<std::uint32_t>().subspan(2 * s.cells_room);
+    const auto done = leaf_cells_->read<std::uint32_t>(2 * std::size_t{s.cells_room},
+                                                       2 * std::size_t{s.cells_room} * sizeof(std::uint32_t));
     const auto counts = [&](std::uint32_t tag) { return tag == kNoTag || done[tag] != 0; };
     CellOutput* const outputs[] = {&out};
     map = {};
     map.stacks = joinStacks(outputs);
     out.segments.reserve(out.segments.size() + s.pieces);
-    for (const GpuPiece& p : pieces_->view<GpuPiece>(s.pieces))
+    for (const GpuPiece& p : pieces_->read<GpuPiece>(s.pieces))
         if (p.left != p.right && counts(p.tag)) out.segments.push_back(pieceFrom(p));
-    for (const GpuRowPiece& p : rows_->view<GpuRowPiece>(s.rows))
+    for (const GpuRowPiece& p : rows_->read<GpuRowPiece>(s.rows))
         if (counts(p.tag)) out.rows.push_back({p.row, p.owner, p.x_px});
     report.counts.pieces = out.segments.size();
     std::sort(out.segments.begin(), out.segments.end(), pieceBefore);
@@ -341,7 +349,7 @@ void VisibilityPasses::Work::run(const Buffer& triangles, const Buffer& planes, 
     push_.min_cell_px = options.min_cell_px;
     push_.sheet_small = kSheetSmall, push_.sheet_most = kSheetTriangles;
     report = {};
-    const std::size_t total = offsets.view<std::uint32_t>(input.grid.size() + 1)[input.grid.size()];
+    const std::size_t total = offsets.read<std::uint32_t>(1, input.grid.size() * sizeof(std::uint32_t))[0];
     Rooms rooms{4 * input.grid.size() + 4096, 4 * total + 4096, 3 * total + 8192,
                 8 * total + 16 * input.grid.size() + 8192};
     while (!attempt(input, rooms)) rooms = larger(rooms);

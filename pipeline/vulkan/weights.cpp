@@ -91,11 +91,28 @@ struct WeightPasses::Job {
     const WeightInput input;
     const WeightLists lists;
     const Buffer segments, lines, offsets, entries, slots, owners, row_offsets, rows;
-    Resource sums = 0, states = 0, kinds = 0, counts = 0, out_offsets = 0, out_owners = 0, out_weights = 0;
+    Resource sums = 0, states = 0, kinds = 0, counts = 0, status = 0, handed_list = 0, out_offsets = 0,
+             out_owners = 0, out_weights = 0;
     std::vector<HandedPixel> handed;
 
+    std::vector<OwnerWeight> makeOnHost(std::size_t pixel, WeightWorker& worker) const {
+        const PixelBox& box = input.box;
+        const auto width = static_cast<std::size_t>(box.width());
+        const std::size_t x = pixel % width, y = pixel / width;
+        const std::size_t columns = (width + kTilePx - 1) / kTilePx, t = y / kTilePx * columns + x / kTilePx;
+        const IdLists& segments_of = lists.tiles.segments;
+        const auto ids =
+            std::span(segments_of.ids)
+                .subspan(segments_of.offsets[t], segments_of.offsets[t + 1] - segments_of.offsets[t]);
+        const int left = box.x0 + static_cast<int>(x), top = box.y0 + static_cast<int>(y);
+        WeightTile made;
+        worker.run(input.map, ids, input.classes, {left, top, left + 1, top + 1}, input.offset_px, made);
+        return made.entries;
+    }
+
     void insertHanded(const PassGraph& graph) const {
-        const auto at = graph[out_offsets].view<uint>(pixels() + 1);
+        if (handed.empty()) return;
+        const auto at = graph[out_offsets].read<uint>(pixels() + 1);
         const auto out_owner = graph[out_owners].view<uint>(at[pixels()]);
         const auto out_weight = graph[out_weights].view<FixedWeight>(at[pixels()]);
         for (const HandedPixel& pixel : handed)
@@ -167,62 +184,42 @@ void WeightPasses::addTerms(PassGraph& graph, const std::shared_ptr<Job>& job) {
 void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) {
     job->kinds = graph.buffer("pixel kinds", [=] { return job->tiles() * kTilePixels * 2 * sizeof(uint); });
     job->counts = graph.buffer("entry counts", [=] { return job->pixels() * sizeof(uint); });
-    graph.add("weights finish",
-              {.reads = {job->sums, job->states},
-               .writes = {job->sums, job->kinds, job->counts},
-               .record = [=, this](const PassContext& pass) {
-                   auto buffers = job->bindings(numbers_);
-                   buffers[kWeightSums] = pass[job->sums], buffers[kWeightStates] = pass[job->states];
-                   buffers[kWeightPixels] = pass[job->kinds], buffers[kWeightCounts] = pass[job->counts];
-                   finish_.forgetSets();
-                   finish_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
-               }});
-    graph.add("weights on the host", {.reads = {job->states, job->kinds, job->counts},
+    job->status = graph.buffer("weights status", [] { return sizeof(GpuWeightStatus); });
+    job->handed_list = graph.buffer("pixels handed back", [=] { return job->pixels() * sizeof(uint); });
+    graph.add(
+        "weights finish",
+        {.reads = {job->sums, job->states},
+         .writes = {job->sums, job->kinds, job->counts, job->status, job->handed_list},
+         .record = [=, this](const PassContext& pass) {
+             pass.commands.fillBuffer(pass[job->status].handle(), 0, VK_WHOLE_SIZE, 0);
+             waitFor(vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite, pass.commands);
+             auto buffers = job->bindings(numbers_);
+             buffers[kWeightStatus] = pass[job->status], buffers[kWeightHanded] = pass[job->handed_list];
+             buffers[kWeightSums] = pass[job->sums], buffers[kWeightStates] = pass[job->states];
+             buffers[kWeightPixels] = pass[job->kinds], buffers[kWeightCounts] = pass[job->counts];
+             finish_.forgetSets();
+             finish_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
+         }});
+    graph.add("weights on the host", {.reads = {job->status, job->handed_list, job->counts},
                                       .writes = {job->counts},
                                       .host = [=, this](const PassGraph& g) { makeOnHost(g, *job); }});
 }
 
 /// Counts what the device has made, and makes the pixels that it handed back.
 void WeightPasses::makeOnHost(const PassGraph& graph, Job& job) {
-    const auto kinds = graph[job.kinds].view<glm::uvec2>(job.tiles() * kTilePixels);
-    const auto states = graph[job.states].view<GpuPixelState>(kinds.size());
+    const GpuWeightStatus status = graph[job.status].read<GpuWeightStatus>(1)[0];
+    report_.terms += status.terms, report_.interior_pixels += status.whole, report_.handed += status.handed;
+    job.handed.clear();
+    for (const uint pixel : graph[job.handed_list].read<uint>(status.handed))
+        job.handed.push_back({pixel, {}});
     const auto counts = graph[job.counts].view<uint>(job.pixels());
-    const PixelBox& box = job.input.box;
-    std::vector<std::size_t> tile_of;
-    for (std::size_t t = 0; t < job.tiles(); ++t) {
-        const PixelBox& tile = job.lists.tiles.boxes[t];
-        for (int y = tile.y0; y < tile.y1; ++y)
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                const auto lane = static_cast<std::size_t>((y - tile.y0) * kTilePx + (x - tile.x0));
-                const std::size_t i = t * kTilePixels + lane;
-                report_.terms += states[i].touched;
-                report_.interior_pixels += kinds[i].x == kPixelWhole;
-                if (kinds[i].x != kPixelHanded) continue;
-                job.handed.push_back(
-                    {static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
-                         static_cast<std::size_t>(x - box.x0),
-                     {}});
-                tile_of.push_back(t);
-            }
-    }
     tbb::enumerable_thread_specific<WeightWorker> workers([&] { return WeightWorker(filter_, options_); });
     tbb::parallel_for(std::size_t{0}, job.handed.size(), [&](std::size_t i) {
-        HandedPixel& pixel = job.handed[i];
-        const auto width = static_cast<std::size_t>(box.width());
-        const int x = box.x0 + static_cast<int>(pixel.pixel % width),
-                  y = box.y0 + static_cast<int>(pixel.pixel / width);
-        const IdLists& lists = job.lists.tiles.segments;
-        const std::size_t t = tile_of[i];
-        WeightTile made;
-        workers.local().run(
-            job.input.map,
-            std::span(lists.ids).subspan(lists.offsets[t], lists.offsets[t + 1] - lists.offsets[t]),
-            job.input.classes, {x, y, x + 1, y + 1}, job.input.offset_px, made);
-        pixel.entries = std::move(made.entries);
-        counts[pixel.pixel] = static_cast<uint>(pixel.entries.size());
+        HandedPixel& handed = job.handed[i];
+        handed.entries = job.makeOnHost(handed.pixel, workers.local());
+        counts[handed.pixel] = static_cast<uint>(handed.entries.size());
     });
     for (const WeightWorker& w : workers) report_.label_conflicts += w.labelConflicts();
-    report_.handed += job.handed.size();
 }
 
 void WeightPasses::addFill(PassGraph& graph, const std::shared_ptr<Job>& job) {

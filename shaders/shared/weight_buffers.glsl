@@ -22,6 +22,8 @@ layout(std430, binding = kWeightCounts) buffer Counts { uint counts[]; };
 layout(std430, binding = kWeightOutOffsets) readonly buffer OutOffsets { uint out_offsets[]; };
 layout(std430, binding = kWeightOutOwners) writeonly buffer OutOwners { uint out_owners[]; };
 layout(std430, binding = kWeightOutWeights) writeonly buffer OutWeights { int64_t out_weights[]; };
+layout(std430, binding = kWeightStatus) buffer Status { GpuWeightStatus status; };
+layout(std430, binding = kWeightHanded) writeonly buffer Handed { uint handed[]; };
 layout(push_constant) uniform Push { WeightPush push; };
 
 uint tileIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }

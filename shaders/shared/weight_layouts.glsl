@@ -33,6 +33,11 @@ const uint kPixelSums = 0u;    // the tile's owners where their sum is not 0
 const uint kPixelWhole = 1u;   // one owner: it is named
 const uint kPixelHanded = 2u;  // left to the host
 
+/// What a box came to.
+struct GpuWeightStatus {
+    uint terms, whole, handed, pad;
+};
+
 struct WeightPush {
     double radius, inner_radius;
     double offset_x, offset_y;  // whole pixels
@@ -59,4 +64,6 @@ const int kWeightCounts = 12;    // entries by pixel of the box
 const int kWeightOutOffsets = 13;
 const int kWeightOutOwners = 14;
 const int kWeightOutWeights = 15;
-const int kWeightBindings = 16;
+const int kWeightStatus = 16;    // GpuWeightStatus
+const int kWeightHanded = 17;    // pixels of the box that are handed back
+const int kWeightBindings = 18;

@@ -37,7 +37,7 @@ TEST_F(PassGraphTest, WhatFeedsNothingWantedIsNotRun) {
                        }});
     EXPECT_EQ(graph.plan({lists}), (Names{"bin", "fill"}));
     graph.run({lists});
-    EXPECT_EQ(graph[lists].view<int>(1)[0], 7);
+    EXPECT_EQ(graph[lists].read<int>(1)[0], 7);
     EXPECT_EQ(binned, 1);
     EXPECT_EQ(heated, 0);
     ASSERT_EQ(graph.times().size(), 2u);
@@ -84,7 +84,7 @@ TEST_F(SharedArithmetic, TheDeviceHasTheBitsOfTheHost) {
     for (std::uint32_t i = 0; i < kPairs; ++i) {
         const std::vector<double> expected = onHost(x[2 * i], x[2 * i + 1]);
         for (std::size_t k = 0; k < expected.size(); ++k) {
-            const double got = graph[out].view<double>(8 * kPairs)[8 * i + k];
+            const double got = graph[out].read<double>(8 * kPairs)[8 * i + k];
             // subnormal numbers are unspecified on the device
             if (std::abs(expected[k]) < 1e-290 || std::isnan(expected[k])) continue;
             ++compared;

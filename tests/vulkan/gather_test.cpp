@@ -41,8 +41,8 @@ class GatherTest : public test::DeviceTest {
             if (std::getenv("EDGEWISE_TEST_TIMES"))
                 fmt::print("  {:20} {:.2f} ms\n", time.name, 1e3 * time.seconds);
         }
-        const auto offsets = graph[lists.offsets].view<std::uint32_t>(grid.size() + 1);
-        const auto ids = graph[lists.ids].view<std::uint32_t>(offsets.back());
+        const auto offsets = graph[lists.offsets].read<std::uint32_t>(grid.size() + 1);
+        const auto ids = graph[lists.ids].read<std::uint32_t>(offsets.back());
         return {{offsets.begin(), offsets.end()}, {ids.begin(), ids.end()}};
     }
 
@@ -182,7 +182,7 @@ TEST_F(ScanTest, OffsetsOfAnyNumberOfCounts) {
         const Resource offsets = scan.addTo(graph, "test", graph.input("counts", filled), size);
         graph.run({offsets});
         const auto expected = offsetsFromCounts(counts);
-        const auto got = graph[offsets].view<std::uint32_t>(size + 1);
+        const auto got = graph[offsets].read<std::uint32_t>(size + 1);
         EXPECT_TRUE(std::equal(got.begin(), got.end(), expected.begin())) << size;
     }
 }
@@ -196,7 +196,7 @@ TEST_F(ScanTest, SumsBeyond32BitsStayAtTheLargest) {
     PassGraph graph(device);
     const Resource offsets = scan.addTo(graph, "test", graph.input("counts", filled), counts.size());
     graph.run({offsets});
-    const auto got = graph[offsets].view<std::uint32_t>(counts.size() + 1);
+    const auto got = graph[offsets].read<std::uint32_t>(counts.size() + 1);
     EXPECT_EQ(got[kScanBlock], 0xf0000000u + kScanBlock - 1);
     EXPECT_EQ(got[kScanBlock + 2], 0xffffffffu);
     EXPECT_EQ(got[counts.size()], 0xffffffffu);

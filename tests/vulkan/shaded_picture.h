@@ -156,8 +156,8 @@ class DeviceShading final : public NsaaStages {
         found.uses |= tables.uses;
         found.uploaded_bytes += shade.scene().bytes();
         found.handed_back += shade.handedBack();
-        compare(frame, graph[out.rgba].view<glm::dvec4>(offsets_.size() - 1),
-                graph[out.edge].view<float>(offsets_.size() - 1));
+        compare(frame, graph[out.rgba].read<glm::dvec4>(offsets_.size() - 1),
+                graph[out.edge].read<float>(offsets_.size() - 1));
     }
 
     Shade onHost(const NsaaFrame& frame, const LayerStacks& stacks, std::size_t e) const {

@@ -60,9 +60,9 @@ class DeviceWeighing final : public NsaaStages {
         ASSERT_TRUE(entries) << "a tile that does not fit";
         graph.run({entries->offsets, entries->owners, entries->weights});
         const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
-        const auto offsets = graph[entries->offsets].view<std::uint32_t>(pixels + 1);
-        const auto owners = graph[entries->owners].view<std::uint32_t>(offsets[pixels]);
-        const auto weights = graph[entries->weights].view<FixedWeight>(offsets[pixels]);
+        const auto offsets = graph[entries->offsets].read<std::uint32_t>(pixels + 1);
+        const auto owners = graph[entries->owners].read<std::uint32_t>(offsets[pixels]);
+        const auto weights = graph[entries->weights].read<FixedWeight>(offsets[pixels]);
         const WeightTile tile = onHost(frame, map, classes, box, frame.plan.weights.precision);
         for (std::size_t p = 0; p < pixels; ++p) {
             bool equal = offsets[p + 1] - offsets[p] == tile.offset[p + 1] - tile.offset[p];
