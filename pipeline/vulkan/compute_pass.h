@@ -17,6 +17,7 @@ struct Groups {
     }
 };
 
+/// A shader writes nothing when its push constants are 0: it is run so once, to be compiled.
 class ComputePass {
   public:
     ComputePass(const Device& device, std::string_view shader, std::size_t buffer_count,
@@ -39,6 +40,8 @@ class ComputePass {
     void forgetSets() { bindings_.forgetSets(); }
 
   private:
+    void warmUp(const Device& device, std::size_t buffer_count, std::size_t push_bytes);
+
     Bindings bindings_;
     vk::raii::Pipeline pipeline_;
 };

@@ -11,9 +11,6 @@
 namespace edgewise::vulkan {
 namespace {
 
-/// lavapipe stops a loop, without a word, after 65535 turns of all loops together.
-constexpr std::size_t kMostTurns = 60000;
-
 /// Of a box's sums, 8 bytes an owner of a tile and pixel: as many entries at most, of 32 bytes when they are
 /// shaded.
 constexpr std::size_t kMostSumBytes = std::size_t{30} << 20;
@@ -30,8 +27,10 @@ const char* shaderOf(Precision precision) {
     return precision == Precision::kFp64 ? "weights_fp64.comp" : "weights_fp32.comp";
 }
 
-std::uint32_t mostOwners(const Device& device) {
-    return device.traits().real_gpu ? 0xffffffffu : static_cast<std::uint32_t>(kMostTurns);
+/// Some are left for what is not counted. Samples of a tile share its list, so that invocations keep one
+/// pace.
+std::uint32_t mostTurns(const Device& device) {
+    return device.traits().loop_turns - 5000;
 }
 
 /// Between dispatches that read what the last has written.
@@ -141,7 +140,7 @@ WeightPasses::WeightPasses(const Device& device, const Prefilter& filter, const 
       numbers_(numbersOf(device, kernel_, options.precision)),
       terms_(device, shaderOf(options.precision), kWeightBindings, sizeof(WeightPush), kernel_.constants),
       finish_(device, "weights_finish.comp", kWeightBindings, sizeof(WeightPush),
-              {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u, mostOwners(device)}),
+              {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u, mostTurns(device)}),
       fill_(device, "weights_fill.comp", kWeightBindings, sizeof(WeightPush)),
       scan_(device) {}
 
@@ -163,8 +162,9 @@ void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
     auto buffers = job.bindings(numbers_);
     buffers[kWeightSums] = pass[job.sums], buffers[kWeightStates] = pass[job.states];
     WeightPush push = job.push(kernel_.kernel.lanes);
-    const std::size_t most = device_.traits().real_gpu ? job.lists.longest : kMostTurns / (kernel_.turns + 1);
-    push.count = static_cast<uint>(std::max<std::size_t>(most, 1));
+    const std::size_t most = mostTurns(device_) / (kernel_.turns + 1);
+    push.count =
+        static_cast<uint>(std::clamp<std::size_t>(most, 1, std::max<std::size_t>(job.lists.longest, 1)));
     do {
         terms_.dispatch(pass.commands, buffers, job.groups(), push);
         waitFor(vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite, pass.commands);

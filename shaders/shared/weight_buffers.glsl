@@ -35,8 +35,9 @@ ivec2 pixelInBox() {
     return ivec2(tile % columns, tile / columns) * kTilePx + ivec2(lane % kTilePx, lane / kTilePx);
 }
 bool hasPixel() {
+    if (tileIndex() >= push.tiles) return false;
     ivec2 at = pixelInBox();
-    return tileIndex() < push.tiles && at.x < push.width && at.y < push.height;
+    return at.x < push.width && at.y < push.height;
 }
 uint pixelIndex() { return uint(pixelInBox().y * push.width + pixelInBox().x); }
 double sampleX() { return (double(push.x0 + pixelInBox().x) + 0.5lf) + push.offset_x; }

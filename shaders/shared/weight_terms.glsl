@@ -60,14 +60,33 @@ void addCrossing(inout GpuPixelState state, BorderPoint point, uint before, uint
     }
 }
 
-void takeSegment(GpuTileSegment entry, inout GpuPixelState state) {
-    EdgeInput seen = inputOf(entry.segment);
-    if (!boxesMeet(seen, push.radius, seen.sample_x, seen.sample_x)) return;
+/// Read before the rest is: most segments of a tile miss a row of its pixels.
+bool isNear(uint id) {
+    EdgeInput seen;
+    seen.sample_y = sampleY();
+    seen.a_x = segments[id].a_grid[0];
+    seen.a_y = segments[id].a_grid[1];
+    seen.b_x = segments[id].b_grid[0];
+    seen.b_y = segments[id].b_grid[1];
+    return boxesMeet(seen, push.radius, sampleX(), sampleX());
+}
+
+void considerBaseOf(GpuTileSegment entry, EdgeInput seen, inout GpuPixelState state) {
+    double near = 9.313225746154785e-10lf;  // more than any base point is from its segment
+    if (smaller(seen.a_y, seen.b_y) > seen.sample_y + near || larger(seen.a_y, seen.b_y) < seen.sample_y - near) return;
+    double base_x = seen.sample_x + push.radius;
+    if (smaller(seen.a_x, seen.b_x) > base_x + near || larger(seen.a_x, seen.b_x) < base_x - near) return;
     BasePoint base = BasePoint(state.base_distance2, state.base_cosine, state.base_owner);
     considerBase(base, kForm != kStripTerm, push.radius, seen, seen.sample_x, ownerAt(entry.left), ownerAt(entry.right));
     state.base_distance2 = base.distance2;
     state.base_cosine = base.cosine;
     state.base_owner = base.owner;
+}
+
+void takeSegment(GpuTileSegment entry, inout GpuPixelState state) {
+    if (!isNear(entry.segment)) return;
+    EdgeInput seen = inputOf(entry.segment);
+    considerBaseOf(entry, seen, state);
     Line line = lineAt(seen, seen.sample_x);
     EdgeTerm term;
     if (kForm == kStripTerm)
