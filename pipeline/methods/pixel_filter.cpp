@@ -165,8 +165,7 @@ glm::dvec2 PixelFilter::centroidOf(const std::vector<glm::dvec2>& seen, Runs run
     auto p = seen.begin();
     for (const OwnerRun& run : runs)
         for (int i = run.begin; i < run.end; ++i, ++p) {
-            const double weight =
-                weighted_centroids_ ? toDouble(weights_.rows[run.row].of(i, i + 1)) : 1.0;
+            const double weight = weighted_centroids_ ? toDouble(weights_.rows[run.row].of(i, i + 1)) : 1.0;
             sum += weight * (*p - corner), total += weight;
         }
     return total > 0.0 ? sum / total : glm::dvec2(0.5);
@@ -245,8 +244,7 @@ std::vector<glm::dvec2> PixelFilter::seenAt(const SampleBand& band, int x, int y
 glm::dvec2 PixelFilter::position(const SampleBand& band, std::size_t row, std::size_t column) const {
     const int x = static_cast<int>(column), y = static_cast<int>(row);
     const glm::ivec2 pixel(band.window.x0 + x / pattern_.columns, band.window.y0 + y / pattern_.rows);
-    return glm::dvec2(pixel) +
-           pattern_.at_px[y % pattern_.rows * pattern_.columns + x % pattern_.columns];
+    return glm::dvec2(pixel) + pattern_.at_px[y % pattern_.rows * pattern_.columns + x % pattern_.columns];
 }
 
 Shade PixelFilter::shadeAt(const SampleBand& band, const Owner& owner, glm::dvec2 p_px) const {

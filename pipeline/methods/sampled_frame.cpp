@@ -119,10 +119,8 @@ void SampledFrame::bookSeconds(const std::string& name, double seconds) {
 /// As many as have their samples in half the memory; at least one.
 int SampledFrame::rowsPerBand(double bytes_per_sample) const {
     const PixelBox& crop = in.film.crop;
-    const double row_bytes =
-        bytes_per_sample * pattern.size() * (crop.width() + 2.0 * weights.margin_px);
-    const double rows =
-        0.5 * 0x1p20 * double(in.options.memory_mib) / row_bytes - 2.0 * weights.margin_px;
+    const double row_bytes = bytes_per_sample * pattern.size() * (crop.width() + 2.0 * weights.margin_px);
+    const double rows = 0.5 * 0x1p20 * double(in.options.memory_mib) / row_bytes - 2.0 * weights.margin_px;
     return static_cast<int>(std::clamp(rows, 1.0, double(crop.height())));
 }
 

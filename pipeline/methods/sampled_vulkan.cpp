@@ -1,6 +1,6 @@
 // none, ssaa and msaa on a Vulkan device, as an engine would make them: samples rasterized, resolved to the
-// owners of each pixel with their weights, shaded and blended there. Where the device sees the owners that the
-// CPU sees, the picture has the CPU's bits.
+// owners of each pixel with their weights, shaded and blended there. Where the device sees the owners that
+// the CPU sees, the picture has the CPU's bits.
 #include "pipeline/methods/sampled_vulkan.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,8 @@ std::optional<std::string> whyNotFiltered(const SampledFrame& frame, const Resol
     if (frame.in.options.shading.mode != ShadingMode::kClosest && !one_sample)
         return "the device shades at the closest point alone";
     if (frame.aov.weighs()) return "--aov wants the owners of every pixel";
-    if (!Resolve::isShortEnough(table, traits)) return "a pixel's support holds more samples than a device walks over";
+    if (!Resolve::isShortEnough(table, traits))
+        return "a pixel's support holds more samples than a device walks over";
     return whyNotShaded(tables, traits);
 }
 
@@ -90,8 +91,8 @@ class VulkanSampledStages : public SampledStages {
         renderOnDevice(frame, part);
     }
 
-    /// Colour, depth and owner of a sample; the host's copies where it filters; else a pixel's counts, colour and
-    /// up to four owners, which few pixels exceed.
+    /// Colour, depth and owner of a sample; the host's copies where it filters; else a pixel's counts, colour
+    /// and up to four owners, which few pixels exceed.
     double bytesPerSample(const SampledFrame& frame) const override {
         constexpr double kSample = 12.0, kPixel = 56.0, kEntry = 56.0;
         if (why_not_filtered_) return kSample + SampledStages::bytesPerSample(frame);
@@ -100,9 +101,9 @@ class VulkanSampledStages : public SampledStages {
 
     void report(const SampledFrame& frame, MethodResult& result) const {
         const DeviceTraits& traits = device_.traits();
-        result.plan.push_back({"visibility", true,
-                               fmt::format("rasterized on {}: {}", traits.name,
-                                           describe(raster_.form(), frame.pattern))});
+        result.plan.push_back(
+            {"visibility", true,
+             fmt::format("rasterized on {}: {}", traits.name, describe(raster_.form(), frame.pattern))});
         for (const char* stage : {"weights", "shade", "blend"})
             result.plan.push_back({stage, true,
                                    why_not_filtered_ ? fmt::format("on the CPU: {}", *why_not_filtered_)
@@ -161,8 +162,8 @@ class VulkanSampledStages : public SampledStages {
             return copyOwners(frame, window, rest, out);
         }
         PassGraph graph(device_);
-        const Resource samples = raster_.addTo(graph, graph.input("triangles", triangles_),
-                                               graph.input("planes", planes_), part);
+        const Resource samples =
+            raster_.addTo(graph, graph.input("triangles", triangles_), graph.input("planes", planes_), part);
         graph.run({samples});
         const std::size_t from_stride = static_cast<std::size_t>(part.width()) * frame.pattern.columns,
                           stride = static_cast<std::size_t>(window.width()) * frame.pattern.columns,
@@ -240,32 +241,23 @@ class VulkanSampledStages : public SampledStages {
     void shadeAndBlend(SampledFrame& frame, const PixelBox& part, const PassGraph& before,
                        const Resolve::Resolved& made, std::size_t count, const HandedPixels& handed) {
         PassGraph graph(device_);
-        const Resolve::Resolved resolved{graph.input("counts", before[made.counts]),
-                                         graph.input("first", before[made.first]),
-                                         graph.input("owners", before[made.owners]),
-                                         graph.input("weights", before[made.weights]),
-                                         graph.input("status", before[made.status]),
-                                         graph.input("mixed", before[made.mixed])};
+        const Resolve::Resolved resolved{
+            graph.input("counts", before[made.counts]), graph.input("first", before[made.first]),
+            graph.input("owners", before[made.owners]), graph.input("weights", before[made.weights]),
+            graph.input("status", before[made.status]), graph.input("mixed", before[made.mixed])};
         const Resolve::Lists lists = resolve_->addOrder(graph, resolved, part, count);
         if (!handed.pixels.empty())
-            graph.add("weights on the host", {.reads = {lists.offsets, lists.owners, lists.weights},
-                                              .writes = {lists.owners, lists.weights},
-                                              .host = [&](const PassGraph& g) {
-                                                  fillHanded(g, lists, handed);
-                                              }});
+            graph.add("weights on the host",
+                      {.reads = {lists.offsets, lists.owners, lists.weights},
+                       .writes = {lists.owners, lists.weights},
+                       .host = [&](const PassGraph& g) { fillHanded(g, lists, handed); }});
         const auto box = [part] { return part; };
-        const ShadeEntries entries{graph.input("triangles", triangles_),
-                                   lists.offsets,
-                                   lists.owners,
-                                   {},
-                                   {},
-                                   {},
-                                   {},
-                                   box,
-                                   [count] { return count; }};
-        const Resource shades = shade_->addTo(graph, entries, [&](std::size_t e) {
-            return shadeOnHost(frame, part, graph, lists, e);
-        });
+        const ShadeEntries entries{
+            graph.input("triangles", triangles_), lists.offsets, lists.owners, {}, {}, {}, {}, box, [count] {
+                return count;
+            }};
+        const Resource shades = shade_->addTo(
+            graph, entries, [&](std::size_t e) { return shadeOnHost(frame, part, graph, lists, e); });
         const BlendedPixels out = blend_->addTo(graph, {lists.offsets, lists.weights, shades, box});
         graph.run({out.rgba, out.edge});
         handed_entries_ += shade_->handedBack();

@@ -18,8 +18,8 @@ struct DrawnPieces {
     std::vector<ScreenTriangle> clipped;  ///< fans of what is left of a triangle
 };
 
-/// The pieces whose boxes meet `target`; those that leave `guard`, which holds it, are cut there. An edge that
-/// two triangles share is cut at the same points for both.
+/// The pieces whose boxes meet `target`; those that leave `guard`, which holds it, are cut there. An edge
+/// that two triangles share is cut at the same points for both.
 DrawnPieces piecesFor(const ScreenScene& scene, const ScreenBox& target, const ScreenBox& guard);
 
 }  // namespace edgewise::vulkan

@@ -115,8 +115,8 @@ void PassGraph::runBatch(const std::vector<std::size_t>& batch) {
                           static_cast<double>(ticks[k + 1] - ticks[k]) * device_.traits().tick_ns * 1e-9});
     // A program on the CPU marks the end of its last dispatch before it has done it: the rest is that one's.
     if (!device_.traits().real_gpu)
-        times_.back().seconds +=
-            std::max(0.0, wall - static_cast<double>(ticks.back() - ticks.front()) * device_.traits().tick_ns * 1e-9);
+        times_.back().seconds += std::max(
+            0.0, wall - static_cast<double>(ticks.back() - ticks.front()) * device_.traits().tick_ns * 1e-9);
 }
 
 void PassGraph::run(const std::vector<Resource>& wanted) {

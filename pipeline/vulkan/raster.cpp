@@ -9,9 +9,9 @@
 namespace edgewise::vulkan {
 namespace {
 
-/// A side of a target, and how far the viewport reaches beyond it: pieces end there, cut in double, so that the
-/// device's own clipping moves no edge. A float holds a place on the viewport to 2^-12 px, and its transform rounds
-/// two times to 2^-11 px at most: less than half a subpixel of 2^-8 px.
+/// A side of a target, and how far the viewport reaches beyond it: pieces end there, cut in double, so that
+/// the device's own clipping moves no edge. A float holds a place on the viewport to 2^-12 px, and its
+/// transform rounds two times to 2^-11 px at most: less than half a subpixel of 2^-8 px.
 constexpr std::uint32_t kMostTargetPx = 8192, kGuardTargetPx = 1024;
 
 constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
@@ -66,7 +66,7 @@ ScreenBox grown(const PixelBox& box, double by_px) {
 RasterForm rasterFormFor(const SamplePattern& pattern, const DeviceTraits& traits) {
     if (pattern.lattice) return RasterForm::kLattice;
     return traits.standard_samples & static_cast<std::uint32_t>(pattern.size()) ? RasterForm::kMultisampled
-                                                                                 : RasterForm::kShifted;
+                                                                                : RasterForm::kShifted;
 }
 
 std::string describe(RasterForm form, const SamplePattern& pattern) {
@@ -120,17 +120,17 @@ Resource Raster::addTo(PassGraph& graph, Resource triangles, Resource planes, co
                height = static_cast<std::uint32_t>(window.height() * scale);
     if (!target_ || target_->size() != vk::Extent2D(width, height)) {
         target_.reset();
-        target_ = std::make_shared<RenderTarget>(device_, "samples", targetFormat(pattern_, form_), width,
-                                                 height);
+        target_ =
+            std::make_shared<RenderTarget>(device_, "samples", targetFormat(pattern_, form_), width, height);
     }
     DrawnPieces drawn = piecesFor(scene_, grown(window, 1.0), grown(window, double(kGuardTargetPx) / scale));
     Buffer pieces = bufferOf(device_, "pieces", drawn.ids),
            clipped = bufferOf(device_, "clipped pieces", drawn.clipped);
     const std::size_t bytes =
         static_cast<std::size_t>(window.width()) * window.height() * pattern_.size() * sizeof(uint);
-    const auto job = std::make_shared<Job>(
-        Job{window, target_, std::move(drawn), std::move(pieces), std::move(clipped), triangles, planes, 0, 0,
-            graph.buffer("sample owners", [bytes] { return bytes; })});
+    const auto job = std::make_shared<Job>(Job{window, target_, std::move(drawn), std::move(pieces),
+                                               std::move(clipped), triangles, planes, 0, 0,
+                                               graph.buffer("sample owners", [bytes] { return bytes; })});
     job->pieces_in = graph.input("pieces", job->pieces);
     job->clipped_in = graph.input("clipped pieces", job->clipped);
     draw_.forgetSets(), collect_.forgetSets();
@@ -144,19 +144,17 @@ void Raster::addDraw(PassGraph& graph, const std::shared_ptr<Job>& job, std::siz
               {.reads = {job->triangles, job->clipped_in, job->planes, job->pieces_in, job->owners},
                .writes = {job->owners},
                .record = [=, this](const PassContext& pass) {
-                   draw_.draw(pass.commands, *job->target,
-                              {pass[job->triangles], pass[job->clipped_in], pass[job->planes],
-                               pass[job->pieces_in]},
-                              PushBytes(pushFor(job->window, sample)),
-                              {.vertices = static_cast<std::uint32_t>(3 * job->drawn.ids.size())},
-                              clearFor(form_));
+                   draw_.draw(
+                       pass.commands, *job->target,
+                       {pass[job->triangles], pass[job->clipped_in], pass[job->planes], pass[job->pieces_in]},
+                       PushBytes(pushFor(job->window, sample)),
+                       {.vertices = static_cast<std::uint32_t>(3 * job->drawn.ids.size())}, clearFor(form_));
                }});
     graph.add("visibility collect",
               {.reads = {job->owners}, .writes = {job->owners}, .record = [=, this](const PassContext& pass) {
                    const CollectPush push = collectFor(job->window, sample);
                    collect_.record(pass.commands, {pass[job->owners]}, {job->target->color().view()},
-                                   PushBytes(push),
-                                   {(push.width + 7) / 8, (push.height + 7) / 8});
+                                   PushBytes(push), {(push.width + 7) / 8, (push.height + 7) / 8});
                }});
 }
 

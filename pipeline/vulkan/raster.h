@@ -27,8 +27,8 @@ RasterForm rasterFormFor(const SamplePattern& pattern, const DeviceTraits& trait
 /// In words.
 std::string describe(RasterForm form, const SamplePattern& pattern);
 
-/// Outlives the runs of the graphs that it adds to. Of opaque scenes; the first drawn of equal depths, which is
-/// the lower index, stays.
+/// Outlives the runs of the graphs that it adds to. Of opaque scenes; the first drawn of equal depths, which
+/// is the lower index, stays.
 class Raster {
   public:
     Raster(const Device& device, const ScreenScene& scene, const SamplePattern& pattern, RasterForm form);

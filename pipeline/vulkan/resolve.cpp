@@ -8,8 +8,8 @@ namespace {
 using bits64 = std::int64_t;
 #include "shaders/shared/resolve.glsl"
 
-/// lavapipe stops a loop, without a word, when the loops of the invocations that it runs together, at most 16,
-/// have taken 65535 turns, each at its own pace.
+/// lavapipe stops a loop, without a word, when the loops of the invocations that it runs together, at most
+/// 16, have taken 65535 turns, each at its own pace.
 constexpr std::size_t kMostTurns = 65535 / 16;
 
 std::size_t sideOf(const ResolveTable& table) {
@@ -122,27 +122,26 @@ void Resolve::addPasses(PassGraph& graph, Resource samples, Resource uniform, co
                         const PixelBox& box) {
     const ResolvePush push = pushFor(box);
     const auto buffers = [=, this](const PassContext& pass) {
-        return std::vector<BufferRange>{pass[samples],    pass[uniform],    weights_,
-                                        pixel_weights_,   pass[out.counts], pass[out.status],
-                                        pass[out.first],  pass[out.mixed],  pass[out.owners],
-                                        pass[out.weights], places_};
+        return std::vector<BufferRange>{pass[samples],    pass[uniform],     weights_,        pixel_weights_,
+                                        pass[out.counts], pass[out.status],  pass[out.first], pass[out.mixed],
+                                        pass[out.owners], pass[out.weights], places_};
     };
     const std::vector<Resource> lists{out.counts, out.first, out.owners, out.weights, out.status};
     uniform_.forgetSets(), whole_.forgetSets(), resolve_.forgetSets();
-    graph.add("weights uniform",
-              {.reads = {samples}, .writes = {uniform, out.status}, .record = [=, this](const PassContext& pass) {
-                   pass.commands.updateBuffer<ResolveStatus>(
-                       pass[out.status].handle(), 0, ResolveStatus{push.width * push.height, 0, 0});
-                   uniform_.dispatch(pass.commands, {pass[samples], pass[uniform]},
-                                     groupsOf(push.window_width, push.window_height), push);
+    graph.add(
+        "weights uniform",
+        {.reads = {samples}, .writes = {uniform, out.status}, .record = [=, this](const PassContext& pass) {
+             pass.commands.updateBuffer<ResolveStatus>(pass[out.status].handle(), 0,
+                                                       ResolveStatus{push.width * push.height, 0, 0});
+             uniform_.dispatch(pass.commands, {pass[samples], pass[uniform]},
+                               groupsOf(push.window_width, push.window_height), push);
+         }});
+    graph.add("weights whole",
+              {.reads = {samples, uniform, out.status},
+               .writes = {out.counts, out.first, out.owners, out.weights, out.status, out.mixed},
+               .record = [=, this](const PassContext& pass) {
+                   whole_.dispatch(pass.commands, buffers(pass), groupsOf(push.width, push.height), push);
                }});
-    graph.add("weights whole", {.reads = {samples, uniform, out.status},
-                                .writes = {out.counts, out.first, out.owners, out.weights, out.status,
-                                           out.mixed},
-                                .record = [=, this](const PassContext& pass) {
-                                    whole_.dispatch(pass.commands, buffers(pass),
-                                                    groupsOf(push.width, push.height), push);
-                                }});
     // How many are mixed is known to the host before they are dispatched.
     graph.add("weights mixed", {.reads = {out.status}, .writes = lists, .host = [](const PassGraph&) {}});
     graph.add("weights resolve", {.reads = {samples, uniform, out.mixed, out.status},
@@ -168,15 +167,15 @@ Resolve::Lists Resolve::addOrder(PassGraph& graph, const Resolved& resolved, con
                         columns = std::min(groups, kMostGroups);
     const OrderPush push{static_cast<uint>(pixelsOf(box)), columns * kGroup};
     order_.forgetSets();
-    graph.add("weights order",
-              {.reads = {resolved.first, offsets, resolved.owners, resolved.weights},
-               .writes = {out.owners, out.weights},
-               .record = [=, this](const PassContext& pass) {
-                   order_.dispatch(pass.commands,
-                                   {pass[resolved.first], pass[offsets], pass[resolved.owners],
-                                    pass[resolved.weights], pass[out.owners], pass[out.weights]},
-                                   {columns, (groups + columns - 1) / columns}, push);
-               }});
+    graph.add("weights order", {.reads = {resolved.first, offsets, resolved.owners, resolved.weights},
+                                .writes = {out.owners, out.weights},
+                                .record = [=, this](const PassContext& pass) {
+                                    order_.dispatch(
+                                        pass.commands,
+                                        {pass[resolved.first], pass[offsets], pass[resolved.owners],
+                                         pass[resolved.weights], pass[out.owners], pass[out.weights]},
+                                        {columns, (groups + columns - 1) / columns}, push);
+                                }});
     return out;
 }
 

@@ -38,14 +38,14 @@ class Resolve {
 
     /// Lists in no order of pixels.
     struct Resolved {
-        Resource counts;          ///< uint by pixel of the box: its owners, or kHandedBack
-        Resource first;           ///< uint by pixel: where its list begins, or kHandedBack
+        Resource counts;  ///< uint by pixel of the box: its owners, or kHandedBack
+        Resource first;   ///< uint by pixel: where its list begins, or kHandedBack
         Resource owners, weights;
         Resource status;  ///< ResolveStatus; where `entries` exceeds roomFor(), the lists are not whole
         Resource mixed;   ///< uint: pixels with several owners
     };
-    /// `samples` are those of the window: the box with the table's margin. The lists of pixels with more owners
-    /// than an invocation holds are left to the host.
+    /// `samples` are those of the window: the box with the table's margin. The lists of pixels with more
+    /// owners than an invocation holds are left to the host.
     Resolved addTo(PassGraph& graph, Resource samples, const PixelBox& box);
 
     /// Entries of a box that the device shades at once: a table of four doubles each has 122 MiB then, and a

@@ -52,8 +52,8 @@ TEST(Msaa, HalfPlaneByHand) {
             const auto x = static_cast<float>(2 * edge_px / kSidePx - 1);
             const Scene scene = test::makeScene({test::makeGeometry(
                 {{{{-9, -9, -1}, {x, -9, -1}, {x, 9, -1}}}, {{{-9, -9, -1}, {x, 9, -1}, {-9, 9, -1}}}})});
-            const MethodResult result = render(scene, test::makeFilm(kSidePx, kSidePx),
-                                               "msaa:" + std::to_string(samples), options);
+            const MethodResult result =
+                render(scene, test::makeFilm(kSidePx, kSidePx), "msaa:" + std::to_string(samples), options);
             double cover = 0.0;
             for (const glm::dvec2& p : at) cover += kColumn + p.x < edge_px ? 1.0 / samples : 0.0;
             const std::size_t i = result.image.index(kColumn, 7);
@@ -65,7 +65,7 @@ TEST(Msaa, HalfPlaneByHand) {
 /// A sample is what `none` sees on a film that is shifted there. Moving the film rounds corners anew, by less
 /// than any sample here is from an edge; alpha is a sum of weights, so it is exact.
 TEST(Msaa, IsTheMeanOfShiftedFilms) {
-    const auto picture = test::shippedPicture("log-grid", 24);
+    const auto picture = test::shippedPicture("thin-wires", 48);
     for (const auto& [samples, at] : test::standardLocations()) {
         const MethodResult got =
             test::renderPicture(picture, makePrefilter("box", {}, {}), {},

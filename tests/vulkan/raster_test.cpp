@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/grid_orientation.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/project.h"
-#include "pipeline/grid_orientation.h"
 #include "tests/pipeline/shipped_picture.h"
 #include "tests/pipeline/standard_locations.h"
 #include "tests/vulkan/test_device.h"
@@ -27,8 +27,8 @@ std::vector<Owner> onDevice(const ScreenScene& scene, const SamplePattern& patte
     PassGraph graph(device);
     const Buffer triangles = bufferOf(device, "triangles", scene.triangles),
                  planes = bufferOf(device, "planes", scene.planes);
-    const Resource owners = raster.addTo(graph, graph.input("triangles", triangles),
-                                         graph.input("planes", planes), window);
+    const Resource owners =
+        raster.addTo(graph, graph.input("triangles", triangles), graph.input("planes", planes), window);
     graph.run({owners});
     const auto found = graph[owners].view<Owner>(static_cast<std::size_t>(window.width()) * window.height() *
                                                  pattern.size());
@@ -179,8 +179,8 @@ double distanceToEdges(const ScreenTriangle& t, glm::dvec2 p) {
     return least;
 }
 
-/// How far an edge may move: a corner half a subpixel along each axis, and as much again for the floats of its
-/// place on the target (raster.cpp).
+/// How far an edge may move: a corner half a subpixel along each axis, and as much again for the floats of
+/// its place on the target (raster.cpp).
 double reachOf(const SamplePattern& pattern) {
     const double subpixel = std::ldexp(1.0, -static_cast<int>(test::device().traits().subpixel_bits));
     return std::sqrt(2.0) * subpixel / (pattern.lattice ? pattern.columns : 1);
@@ -280,9 +280,10 @@ TEST_F(RasterTest, AnyCornersDifferAtEdgesAlone) {
                 all.samples += one.samples, all.differing += one.differing;
             }
     }
-    fmt::print("seed {}: {} corners beyond 2000 px; {} of {} samples differ, all within a subpixel's diagonal "
-               "of an edge\n",
-               kSeed, far, all.differing, all.samples);
+    fmt::print(
+        "seed {}: {} corners beyond 2000 px; {} of {} samples differ, all within a subpixel's diagonal "
+        "of an edge\n",
+        kSeed, far, all.differing, all.samples);
     EXPECT_GT(far, 100u);
 }
 
@@ -297,9 +298,9 @@ TEST_F(RasterTest, ShippedScenesDifferAtEdgesAndCloseDepthsAlone) {
         for (const SamplePattern& pattern : {latticePattern(1), latticePattern(4), standardPattern(4)})
             for (const RasterForm form : formsOf(pattern)) {
                 const Differences d = compare(screen, pieces, pattern, form, picture.film.crop);
-                fmt::print("{:28} {:26} {:8} samples, {:8.2e} differ: {} at edges, {} by depth\n", picture.name,
-                           describe(form, pattern), d.samples, double(d.differing) / double(d.samples),
-                           d.at_edges, d.by_depth);
+                fmt::print("{:28} {:26} {:8} samples, {:8.2e} differ: {} at edges, {} by depth\n",
+                           picture.name, describe(form, pattern), d.samples,
+                           double(d.differing) / double(d.samples), d.at_edges, d.by_depth);
             }
     }
 }

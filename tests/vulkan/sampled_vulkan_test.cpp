@@ -20,7 +20,8 @@ class SampledVulkan : public test::DeviceTest {
     void SetUp() override { test::device(); }  // validation on, for the method's own device too
 };
 
-/// Triangles whose corners no snapping moves on a film of 64 px, the depths far apart, each vertex with its colour.
+/// Triangles whose corners no snapping moves on a film of 64 px, the depths far apart, each vertex with its
+/// colour.
 Scene snappedScene(witness::Dice& dice, int count) {
     std::vector<edgewise::test::Corners> triangles(count);
     for (auto& t : triangles) {
@@ -98,7 +99,8 @@ TEST_F(SampledVulkan, CrowdedPixelsAreHandedBack) {
     witness::Dice dice(32);
     std::vector<edgewise::test::Corners> triangles;
     for (int i = 0; i < 4000; ++i) {
-        const glm::vec3 at(dice.integer(-256, 256) / 256.0f, dice.integer(-256, 256) / 256.0f, -1.0f - i / 64.0f);
+        const glm::vec3 at(dice.integer(-256, 256) / 256.0f, dice.integer(-256, 256) / 256.0f,
+                           -1.0f - i / 64.0f);
         triangles.push_back({at, at + glm::vec3(8 / 256.0f, 0, 0), at + glm::vec3(0, 8 / 256.0f, 0)});
     }
     const Scene scene = edgewise::test::makeScene({edgewise::test::makeGeometry(triangles)});
@@ -115,7 +117,8 @@ TEST_F(SampledVulkan, CrowdedPixelsAreHandedBack) {
     expectEqual(host, device, "crowded");
 }
 
-/// Other places to shade, and AOVs that want owners: the device rasterizes, the CPU does the rest, and says so.
+/// Other places to shade, and AOVs that want owners: the device rasterizes, the CPU does the rest, and says
+/// so.
 TEST_F(SampledVulkan, WhatTheDeviceDoesNotShadeIsShadedOnTheCpu) {
     witness::Dice dice(33);
     const Scene scene = snappedScene(dice, 80);
