@@ -41,7 +41,7 @@ ShadeTables tablesOf(const SampledFrame& frame) {
 /// Why the samples are filtered and shaded on the CPU; nullopt: on the device.
 std::optional<std::string> whyNotFiltered(const SampledFrame& frame, const ResolveTable& table,
                                           const ShadeTables& tables, const DeviceTraits& traits,
-                                          FilterPlace place) {
+                                          const Raster& raster, FilterPlace place) {
     // A program on the CPU takes 1000 cycles a sample for what the CPU's own code finds in runs.
     constexpr std::size_t kFewSamples = 16;
     if (place == FilterPlace::kFastest && !traits.real_gpu && table.weights.size() > kFewSamples)
@@ -53,6 +53,8 @@ std::optional<std::string> whyNotFiltered(const SampledFrame& frame, const Resol
     if (frame.aov.weighs()) return "--aov wants the owners of every pixel";
     if (!Resolve::isShortEnough(table, traits))
         return "a pixel's support holds more samples than a device walks over";
+    const PixelBox support = frame.windowOf({0, 0, 1, 1});
+    if (!raster.fits(support.width(), support.height())) return "a pixel's support is larger than a target";
     return whyNotShaded(tables, traits);
 }
 
@@ -73,7 +75,7 @@ class VulkanSampledStages : public SampledStages {
           raster_(device_, frame.screen, frame.pattern) {
         const ResolveTable table = tableOf(frame);
         const ShadeTables tables = tablesOf(frame);
-        why_not_filtered_ = whyNotFiltered(frame, table, tables, device_.traits(), place);
+        why_not_filtered_ = whyNotFiltered(frame, table, tables, device_.traits(), raster_, place);
         if (!why_not_filtered_)
             resolve_.emplace(device_, table), shade_.emplace(device_, tables), blend_.emplace(device_);
         warmUp(frame);

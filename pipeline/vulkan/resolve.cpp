@@ -12,13 +12,15 @@ using bits64 = std::int64_t;
 /// 16, have taken 65535 turns, each at its own pace.
 constexpr std::size_t kMostTurns = 65535 / 16;
 
+constexpr std::size_t kMostSlots = 64;
+
 std::size_t sideOf(const ResolveTable& table) {
     return 2 * table.margin_px + 1;
 }
 
 /// What the walk over a window leaves to the search for slots.
 uint turnsOfAdding(const ResolveTable& table) {
-    const std::size_t walk = 2 * table.weights.size();  // each step may end a run
+    const std::size_t walk = 2 * table.weights.size() + kMostSlots;  // a step may end a run; writing
     return static_cast<uint>(walk < kMostTurns ? kMostTurns - walk : kMostTurns);
 }
 
@@ -49,7 +51,6 @@ SampleWalk walkOver(const ResolveTable& table) {
 constexpr std::uint32_t kMostGroups = 65535;
 
 /// Owners that an invocation holds: a workgroup's all lie in shared memory.
-constexpr std::size_t kMostSlots = 64;
 uint slotsOn(const Device& device) {
     const std::size_t room = device.traits().max_shared_bytes / (kResolveGroup * (sizeof(uint) + 8));
     return static_cast<uint>(std::min(room, kMostSlots));
@@ -86,7 +87,7 @@ Resolve::Resolve(const Device& device, const ResolveTable& table, const SampleWa
       order_(device, "order_entries.comp", kOrderBindings, sizeof(OrderPush)) {}
 
 std::size_t Resolve::roomFor(const PixelBox& box) {
-    return pixelsOf(box) > kMostEntries / 2 ? 0 : std::min(kMostEntries, pixelsOf(box) * kMostSlots);
+    return pixelsOf(box) > kMostEntries / 2 ? 0 : std::min(kMostEntries, pixelsOf(box) * (1 + kMostSlots));
 }
 
 ResolvePush Resolve::pushFor(const PixelBox& box) const {
