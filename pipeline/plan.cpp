@@ -18,15 +18,6 @@ struct ShadeHash {
     }
 };
 
-std::vector<std::optional<Shade>> constantShades(const ScreenPieces& pieces, const Shading& shading) {
-    std::vector<std::optional<Shade>> shades(pieces.first.size() - 1);
-    tbb::parallel_for(std::size_t{0}, shades.size(), [&](std::size_t i) {
-        const auto owner = static_cast<Owner>(i);
-        if (pieces.first[i] != pieces.first[i + 1]) shades[i] = shading.constant(owner);
-    });
-    return shades;
-}
-
 /// Owners of one constant colour are represented by the lowest of them.
 OwnerClasses classesOf(const std::vector<std::optional<Shade>>& constant, std::size_t& merged,
                        std::size_t& classes) {
@@ -64,6 +55,15 @@ const std::vector<std::string>& skippableStages() {
     static const std::vector<std::string> names{"visibility", "piercing",  "cancel", "interior",
                                                 "fetch",      "occlusion", "empty"};
     return names;
+}
+
+std::vector<std::optional<Shade>> constantShades(const ScreenPieces& pieces, const Shading& shading) {
+    std::vector<std::optional<Shade>> shades(pieces.first.size() - 1);
+    tbb::parallel_for(std::size_t{0}, shades.size(), [&](std::size_t i) {
+        const auto owner = static_cast<Owner>(i);
+        if (pieces.first[i] != pieces.first[i + 1]) shades[i] = shading.constant(owner);
+    });
+    return shades;
 }
 
 Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces,

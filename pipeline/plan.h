@@ -22,6 +22,9 @@ struct Plan {
 /// Names that --no-skip takes.
 const std::vector<std::string>& skippableStages();
 
+/// By owner: its shade, where it has pieces and cannot vary.
+std::vector<std::optional<Shade>> constantShades(const ScreenPieces& pieces, const Shading& shading);
+
 Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces,
               const Shading& shading, const RenderOptions& options);
 

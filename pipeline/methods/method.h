@@ -119,6 +119,7 @@ struct MethodEntry {
     std::string summary;
     Number number = Number::kAbsent;
     int smallest = 1, largest = 64;  ///< of the number
+    std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
         choices;  ///< parameter -> what it may be; device is added to all
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;

@@ -258,7 +258,7 @@ class VulkanStages : public CpuStages {
             blend_->addTo(graph, {weighed.offsets, weighed.weights, shades, entries.box});
         graph.run({out.rgba, out.edge});
         handed_entries_ += shade_->handedBack();
-        store(graph, out, box, frame.result.image);
+        copyPixels(graph, out, box, frame.result.image);
     }
 
     /// The device composites what it is given; the limit is asked here.
@@ -319,19 +319,6 @@ class VulkanStages : public CpuStages {
         const double share = all > 0.0 ? weighing / all : 0.0;
         frame.bookSeconds("weights", wall * share);
         frame.bookSeconds("blend", wall * (1.0 - share));
-    }
-
-    static void store(const PassGraph& graph, const BlendedPixels& from, const PixelBox& strip,
-                      ImageBuffer& image) {
-        const std::size_t count = static_cast<std::size_t>(strip.width()) * strip.height();
-        const auto rgba = graph[from.rgba].read<glm::dvec4>(count);
-        const auto edge = graph[from.edge].read<float>(count);
-        std::size_t p = 0;
-        for (int y = strip.y0; y < strip.y1; ++y)
-            for (int x = strip.x0; x < strip.x1; ++x, ++p) {
-                const std::size_t i = image.index(x, y);
-                image.rgba[i] = rgba[p], image.edge[i] = edge[p];
-            }
     }
 
     Device device_;

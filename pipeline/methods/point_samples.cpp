@@ -34,21 +34,18 @@ bool mayMeet(const ScreenTriangle& t, glm::dvec2 low, glm::dvec2 high) {
 
 }  // namespace
 
-double sampleOffsetPx(int a, int per_side) {
-    return roundToGrid((a + 0.5) / per_side);
-}
-
 /// One tile's samples and what has been seen at them so far.
 class TileSampler {
   public:
-    void run(const PointSampler& sampler, std::size_t tile, const PixelBox& window, SampledOwners& out) {
+    void run(const PointSampler& sampler, std::size_t tile, const PixelBox& window, glm::dvec2 shift_px,
+             SampledOwners& out) {
         const PixelBox whole = sampler.tileBox(tile);
         box_ = {std::max(whole.x0, window.x0), std::max(whole.y0, window.y0), std::min(whole.x1, window.x1),
                 std::min(whole.y1, window.y1)};
         scene_ = &sampler.scene_;
         per_side_ = sampler.per_side_;
         stacks_mutex_ = &sampler.stacks_mutex_;
-        begin();
+        begin(shift_px);
         const auto all = std::span(sampler.binned_)
                              .subspan(sampler.first_[tile], sampler.first_[tile + 1] - sampler.first_[tile]);
         for (const std::uint32_t i : all)
@@ -74,10 +71,10 @@ class TileSampler {
         return scene_->seesThrough(scene_->triangles[triangle].owner);
     }
 
-    void begin() {
+    void begin(glm::dvec2 shift_px) {
         panes_.clear();
-        place(box_.x0, box_.width(), x_px_);
-        place(box_.y0, box_.height(), y_px_);
+        place(box_.x0, box_.width(), shift_px.x, x_px_);
+        place(box_.y0, box_.height(), shift_px.y, y_px_);
         dx_.clear();
         for (const double x : x_px_) dx_.push_back(x - scene_->anchor_px.x);
         depth_.assign(x_px_.size() * y_px_.size(), -std::numeric_limits<double>::infinity());
@@ -86,10 +83,11 @@ class TileSampler {
         exact_depths_ = 0;
     }
 
-    void place(int first, int pixels, std::vector<double>& position) const {
+    void place(int first, int pixels, double shift, std::vector<double>& position) const {
         position.clear();
         for (int i = 0; i < pixels; ++i)
-            for (int a = 0; a < per_side_; ++a) position.push_back(first + i + sampleOffsetPx(a, per_side_));
+            for (int a = 0; a < per_side_; ++a)
+                position.push_back(first + i + sampleOffsetPx(a, per_side_) + shift);
     }
 
     void cover(std::uint32_t index) {
@@ -329,7 +327,7 @@ void sortStacks(SampledOwners& sampled) {
 
 }  // namespace
 
-SampledOwners PointSampler::sample(const PixelBox& window) const {
+SampledOwners PointSampler::sample(const PixelBox& window, glm::dvec2 shift_px) const {
     SampledOwners out;
     out.owner.resize(static_cast<std::size_t>(window.width()) * window.height() * per_side_ * per_side_);
     const int x0 = (window.x0 - box_.x0) / tile_px_, x1 = (window.x1 - box_.x0 + tile_px_ - 1) / tile_px_;
@@ -338,7 +336,7 @@ SampledOwners PointSampler::sample(const PixelBox& window) const {
     try {
         tbb::parallel_for(0, (x1 - x0) * (y1 - y0), [&](int i) {
             const int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
-            samplers.local().run(*this, static_cast<std::size_t>(y) * tiles_x_ + x, window, out);
+            samplers.local().run(*this, static_cast<std::size_t>(y) * tiles_x_ + x, window, shift_px, out);
         });
     } catch (const LayerLimit& limit) {
         throw FailureError(

@@ -1,4 +1,4 @@
-// The front-most owner at exact sample positions: what `none` and `ssaa` see.
+// The front-most owner at exact sample positions: what the sampling methods see.
 #pragma once
 
 #include <atomic>
@@ -8,12 +8,9 @@
 
 #include "analytic/layer_stacks.h"
 #include "pipeline/film.h"
+#include "pipeline/sample_pattern.h"
 
 namespace edgewise {
-
-/// Sample (a, b) of a pixel lies at ((a + 1/2)/K, (b + 1/2)/K), rounded to the grid of 2^-32 px where K is no
-/// power of 2.
-double sampleOffsetPx(int a, int per_side);
 
 /// Owners of samples: triangles, stacks of see-through layers, or the background.
 struct SampledOwners {
@@ -30,9 +27,10 @@ class PointSampler {
     /// K x K samples a pixel, for pixels of `box`.
     PointSampler(const ScreenScene& scene, const PixelBox& box, int per_side);
 
-    /// Owners of all samples of a window within the box, in rows of width() * K from the top. Parallel by
-    /// tiles. Throws FailureError naming the pixel where a sample has more than kMostLayers layers.
-    SampledOwners sample(const PixelBox& window) const;
+    /// Owners of all samples of a window within the box, in rows of width() * K from the top, each sample
+    /// moved by `shift_px`, a multiple of the grid that leaves it in its pixel. Parallel by tiles. Throws
+    /// FailureError naming the pixel where a sample has more than kMostLayers layers.
+    SampledOwners sample(const PixelBox& window, glm::dvec2 shift_px = glm::dvec2(0.0)) const;
 
     /// Depth decisions that the rounded planes left open.
     std::uint64_t exactDepths() const { return exact_depths_; }

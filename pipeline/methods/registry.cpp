@@ -13,9 +13,11 @@ namespace edgewise {
 namespace {
 
 #ifdef EDGEWISE_HAS_VULKAN
-constexpr auto kNsaaVulkan = runNsaaVulkan;
+constexpr auto kMsaaVulkan = runMsaaVulkan, kNoneVulkan = runNoneVulkan, kNsaaVulkan = runNsaaVulkan,
+               kSsaaVulkan = runSsaaVulkan;
 #else
-constexpr decltype(MethodEntry::run) kNsaaVulkan = nullptr;
+constexpr decltype(MethodEntry::run) kMsaaVulkan = nullptr, kNoneVulkan = nullptr, kNsaaVulkan = nullptr,
+                                     kSsaaVulkan = nullptr;
 #endif
 
 const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
@@ -48,6 +50,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+bool mayBe(const MethodEntry& entry, int number) {
+    if (entry.numbers.empty()) return number >= entry.smallest && number <= entry.largest;
+    return std::find(entry.numbers.begin(), entry.numbers.end(), number) != entry.numbers.end();
+}
+
+std::string numbersOf(const MethodEntry& entry) {
+    if (entry.numbers.empty()) return fmt::format("a number from {} to {}", entry.smallest, entry.largest);
+    return fmt::format("one of {}", fmt::join(entry.numbers, ", "));
+}
+
 void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spec) {
     if (entry.number == MethodEntry::Number::kAbsent)
         fail(spec.typed, fmt::format("'{}' takes no number", entry.name));
@@ -55,9 +67,8 @@ void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spe
     int value = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-    if (!whole || value < entry.smallest || value > entry.largest)
-        fail(spec.typed,
-             fmt::format("'{}' is not a number from {} to {}", text, entry.smallest, entry.largest));
+    if (!whole || !mayBe(entry, value))
+        fail(spec.typed, fmt::format("'{}' is not {}", text, numbersOf(entry)));
     spec.number = value;
 }
 
@@ -93,7 +104,8 @@ MethodSpec parseOne(std::string_view typed) {
 std::string describe(const MethodEntry& entry) {
     std::vector<std::string> parameters;
     if (entry.number == MethodEntry::Number::kRequired)
-        parameters.push_back(fmt::format("{}..{}", entry.smallest, entry.largest));
+        parameters.push_back(entry.numbers.empty() ? fmt::format("{}..{}", entry.smallest, entry.largest)
+                                                   : fmt::format("{}", fmt::join(entry.numbers, "|")));
     for (const auto& [key, choices] : entry.choices)
         parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
     parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
@@ -104,7 +116,11 @@ std::string describe(const MethodEntry& entry) {
 
 const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
-        {.name = "none", .summary = "one sample at the pixel's centre", .choices = {}, .run = runNone},
+        {.name = "none",
+         .summary = "one sample at the pixel's centre",
+         .choices = {},
+         .run = runNone,
+         .run_vulkan = kNoneVulkan},
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .choices = {{"visibility", {"slab"}}},
@@ -114,7 +130,15 @@ const std::vector<MethodEntry>& methodRegistry() {
          .summary = "K x K samples a pixel, shared by the pixels whose filter reaches them",
          .number = MethodEntry::Number::kRequired,
          .choices = {},
-         .run = runSsaa},
+         .run = runSsaa,
+         .run_vulkan = kSsaaVulkan},
+        {.name = "msaa",
+         .summary = "N samples a pixel at Vulkan's standard locations, one shade a triangle and pixel",
+         .number = MethodEntry::Number::kRequired,
+         .numbers = {2, 4, 8, 16},
+         .choices = {},
+         .run = runMsaa,
+         .run_vulkan = kMsaaVulkan},
 #ifdef EDGEWISE_HAS_ORACLE
         {.name = "exact",
          .summary = "the oracle: exact visibility, weights to 30 digits; for small scenes and crops",

@@ -8,9 +8,13 @@ namespace edgewise {
 const std::vector<MethodEntry>& methodRegistry();
 
 MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
+MethodResult runMsaa(const MethodSpec& spec, const MethodInput& input);
+MethodResult runMsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
+MethodResult runNoneVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
+MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 
 }  // namespace edgewise

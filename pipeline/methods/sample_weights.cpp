@@ -79,4 +79,13 @@ SampleWeights::SampleWeights(const Prefilter& filter, int per_side) {
         rows.push_back(makeRow(fixed.data() + static_cast<std::size_t>(row) * table.side, table.side));
 }
 
+SampleWeights SampleWeights::equal(int samples) {
+    SampleWeights weights;
+    Row row{0, {0}};
+    for (int i = 0; i < samples; ++i)
+        row.running.push_back(row.running.back() + (FixedWeight(1) << kWeightBits) / samples);
+    weights.rows.push_back(row);
+    return weights;
+}
+
 }  // namespace edgewise

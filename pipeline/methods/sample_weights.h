@@ -24,6 +24,12 @@ struct SampleWeights {
     /// where fixed point could overflow, the sizes of the weights summing to more than 7, or the support is
     /// wider than 8192 samples.
     SampleWeights(const Prefilter& filter, int per_side);
+
+    /// One row of so many samples, a power of 2, that weigh alike; no margin.
+    static SampleWeights equal(int samples);
+
+  private:
+    SampleWeights() = default;
 };
 
 }  // namespace edgewise

@@ -1,8 +1,8 @@
 #include "pipeline/vulkan/blend.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "pipeline/image_buffer.h"
 #include "pipeline/shading_text.h"
 
 namespace edgewise::vulkan {
@@ -18,6 +18,17 @@ std::size_t pixelsOf(const PixelBox& box) {
 }
 
 }  // namespace
+
+void copyPixels(const PassGraph& graph, const BlendedPixels& from, const PixelBox& box, ImageBuffer& image) {
+    const auto rgba = graph[from.rgba].read<glm::dvec4>(pixelsOf(box));
+    const auto edge = graph[from.edge].read<float>(pixelsOf(box));
+    for (int y = box.y0; y < box.y1; ++y) {
+        const std::size_t row = static_cast<std::size_t>(y - box.y0) * box.width();
+        const auto to = static_cast<std::ptrdiff_t>(image.index(box.x0, y));
+        std::copy_n(rgba.begin() + row, box.width(), image.rgba.begin() + to);
+        std::copy_n(edge.begin() + row, box.width(), image.edge.begin() + to);
+    }
+}
 
 BlendPass::BlendPass(const Device& device)
     : device_(device),

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipeline/film.h"
+#include "pipeline/image_buffer.h"
 #include "pipeline/vulkan/graphics_pass.h"
 #include "pipeline/vulkan/layouts.h"
 #include "pipeline/vulkan/pass_graph.h"
@@ -26,6 +27,9 @@ struct BlendedPixels {
     Resource rgba;  ///< four doubles a pixel
     Resource edge;  ///< a float a pixel: 1 or 0
 };
+
+/// Of a graph that has run, into the box's part of the image.
+void copyPixels(const PassGraph& graph, const BlendedPixels& from, const PixelBox& box, ImageBuffer& image);
 
 /// Outlives the runs of the graphs that it adds to. Boxes are at most DeviceTraits::max_target_px wide and
 /// high.

@@ -54,6 +54,15 @@ std::size_t largestLocalHeap(const vk::PhysicalDeviceMemoryProperties& memory) {
     return largest;
 }
 
+/// Sample counts that images of bytes and of depth have alike, as bits; none where locations are the device's
+/// own.
+std::uint32_t standardSamplesOf(const vk::PhysicalDeviceLimits& limits) {
+    if (!limits.standardSampleLocations) return 0;
+    return static_cast<std::uint32_t>(limits.framebufferColorSampleCounts &
+                                      limits.framebufferDepthSampleCounts &
+                                      limits.sampledImageColorSampleCounts);
+}
+
 DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
     const auto properties = device.getProperties();
     const auto features =
@@ -74,7 +83,10 @@ DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
         std::min({properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight,
                   properties.limits.maxViewportDimensions[0], properties.limits.maxViewportDimensions[1],
                   properties.limits.maxImageDimension2D});
+    traits.standard_samples = standardSamplesOf(properties.limits);
+    traits.subpixel_bits = properties.limits.subPixelPrecisionBits;
     traits.max_stage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
+    traits.max_shared_bytes = properties.limits.maxComputeSharedMemorySize;
     traits.max_storage_bytes = properties.limits.maxStorageBufferRange;
     traits.max_heap_bytes = largestLocalHeap(device.getMemoryProperties());
     if (const auto family = queueFamilyOf(device);

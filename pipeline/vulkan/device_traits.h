@@ -19,11 +19,14 @@ struct DeviceTraits {
     std::uint32_t max_target_px = 0;      ///< a side of what passes rasterize on
     std::uint32_t max_stage_buffers = 0;  ///< storage buffers that one shader may bind
     std::size_t max_storage_bytes = 0;    ///< of one storage buffer's binding
+    std::size_t max_shared_bytes = 0;     ///< of a workgroup
     std::size_t max_heap_bytes = 0;       ///< of the largest device-local heap
     /// Turns that the loops of the invocations which run together may take in all: lavapipe stops them then,
     /// without a word.
     std::uint32_t loop_turns = 0xffffffff;
-    double tick_ns = 0.0;  ///< of a timestamp; 0: the queue has none
+    std::uint32_t standard_samples = 0;  ///< bit N: colour and depth have N samples at standard locations
+    std::uint32_t subpixel_bits = 0;     ///< of rasterized corners
+    double tick_ns = 0.0;                ///< of a timestamp; 0: the queue has none
 };
 
 /// Storage buffers that the pipeline's hungriest stage, visibility, binds.

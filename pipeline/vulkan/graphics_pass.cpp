@@ -98,8 +98,9 @@ void GraphicsPass::draw(const vk::raii::CommandBuffer& commands, const RenderTar
     if (draw.indirect || (draw.vertices > 0 && draw.instances > 0)) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
         bindings_.bind(commands, vk::PipelineBindPoint::eGraphics, buffers, {}, push);
-        commands.setViewport(0, vk::Viewport(0.0f, 0.0f, static_cast<float>(size.width),
-                                             static_cast<float>(size.height), 0.0f, 1.0f));
+        const auto guard = static_cast<float>(options_.guard_px);
+        commands.setViewport(0, vk::Viewport(-guard, -guard, static_cast<float>(size.width) + 2.0f * guard,
+                                             static_cast<float>(size.height) + 2.0f * guard, 0.0f, 1.0f));
         commands.setScissor(0, area);
         if (draw.indirect)
             commands.drawIndirect(draw.indirect->handle(), 0, 1, sizeof(vk::DrawIndirectCommand));

@@ -21,6 +21,8 @@ struct GraphicsOptions {
     vk::CompareOp depth_compare = vk::CompareOp::eGreater;
     bool overestimate = false;  ///< with VK_EXT_conservative_rasterization: every pixel that is touched
     std::vector<vk::PipelineColorBlendAttachmentState> blend = {};  ///< empty: colours replace
+    /// The viewport reaches this much farther than the target on each side: what lies there is not clipped.
+    std::uint32_t guard_px = 0;
 };
 
 /// Vertices of a draw; a shader sees gl_VertexIndex from `first` on. Or a buffer holds these numbers:

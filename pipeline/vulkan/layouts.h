@@ -19,5 +19,6 @@ static_assert(sizeof(GpuSegment) == 88);
 static_assert(sizeof(OwnerRecord) == 32 && sizeof(SurfaceRecord) == 32 && sizeof(LevelRecord) == 16);
 static_assert(sizeof(MaterialRecord) == 112 && sizeof(MapRecord) == 88 && sizeof(LightRecord) == 104);
 static_assert(sizeof(ShadeFrame) == 20 * 8 + 16 && sizeof(ShadePush) == 24);
+static_assert(sizeof(RasterPush) == 88 && sizeof(DepthPlane) == 24 && sizeof(ResolveStatus) == 12);
 
 }  // namespace edgewise::vulkan

@@ -226,3 +226,87 @@ const int kBlendShadesBinding = 2;
 const int kBlendRgbaBinding = 3;
 const int kBlendEdgeBinding = 4;
 const int kBlendBindings = 5;
+
+// ---- Rasterized samples: raster.vert, collect*.comp, uniform_pixels.comp, resolve.comp.
+
+/// Of one draw. A target's pixel is 1/scale of a pixel.
+struct RasterPush {
+    double x0_px;  // the target's corner
+    double y0_px;
+    double scale;
+    double shift_x;  // of the scene on the viewport, in pixels of the target
+    double shift_y;
+    double width;  // of the viewport
+    double height;
+    double anchor_x;  // ScreenScene::anchor_px
+    double anchor_y;
+    double depth_scale;
+    double depth_offset;
+};
+const int kRasterTriangles = 0;  // GpuTriangle
+const int kRasterClipped = 1;    // GpuTriangle: what was cut at the guard band
+const int kRasterPlanes = 2;     // DepthPlane: three doubles
+const int kRasterPieces = 3;     // what is drawn, in owner order
+const int kRasterBindings = 4;
+const uint kClippedPiece = 0x80000000u;
+
+struct CollectPush {
+    uint width;  // of the target
+    uint height;
+    uint samples;  // of a pixel, in the rows
+    uint slot;     // of these, which one a target of one sample holds
+};
+
+/// Pixels of a box, and the window of pixels whose samples they look at.
+struct ResolvePush {
+    uint width;
+    uint height;
+    uint window_width;
+    uint window_height;
+    uint margin;
+    uint columns;  // of samples a pixel
+    uint rows;
+    uint room;  // for entries
+    uint row;   // of mixed pixels: what one row of workgroups takes
+};
+struct ResolveStatus {
+    uint entries;      // the room that lists have taken; each pixel has one entry beforehand
+    uint mixed;        // pixels with several owners
+    uint handed_back;  // of these
+};
+const uint kResolveGroup = 32u;  // invocations of a workgroup
+const uint kMixedPixel = 0xfffffffeu;
+const uint kHandedBack = 0xffffffffu;
+const int kResolveSamples = 0;
+const int kResolveUniform = 1;
+const int kResolveWeights = 2;       // by step of the walk
+const int kResolvePixelWeights = 3;  // of all samples of the pixel, by its first step
+const int kResolveCounts = 4;
+const int kResolveStatus = 5;
+const int kResolveFirst = 6;
+const int kResolveMixed = 7;
+const int kResolveOwners = 8;
+const int kResolveEntryWeights = 9;
+const int kResolvePlaces = 10;  // WalkPlace
+const int kResolveBindings = 11;
+
+/// The walk over a window goes pixel by pixel, sample by sample; at a pixel's first sample it may step over all of it.
+struct WalkPlace {
+    uint x;  // samples from the window's corner
+    uint y;
+    uint pixel_x;  // pixels, or kInsidePixel
+    uint pixel_y;
+};
+const uint kInsidePixel = 0xffffffffu;
+
+struct OrderPush {
+    uint pixels;
+    uint row;  // pixels that one row of workgroups takes
+};
+const int kOrderFirst = 0;
+const int kOrderOffsets = 1;
+const int kOrderFromOwners = 2;
+const int kOrderFromWeights = 3;
+const int kOrderOwners = 4;
+const int kOrderWeights = 5;
+const int kOrderBindings = 6;

@@ -59,12 +59,14 @@ TEST(DeviceOption, WithoutADriverVulkanFailsAndAutoTakesTheCpu) {
     const NoDrivers none;
     const TemporaryFolder folder;
     const Arguments render{"render", "zone-plate", "-o", "a.exr", "--size", "8x8", "--quiet"};
-    Arguments on_vulkan = render;
-    on_vulkan.insert(on_vulkan.end(), {"--device", "vulkan"});
-    const ProgramRun asked = runProgram(on_vulkan, folder.path());
-    EXPECT_EQ(asked.status, 1);
-    EXPECT_NE(asked.err.find("edgewise: error: device vulkan: "), std::string::npos) << asked.err;
-    EXPECT_TRUE(folder.names().empty());
+    for (const char* method : {"nsaa", "none", "ssaa:2", "msaa:4"}) {
+        Arguments on_vulkan = render;
+        on_vulkan.insert(on_vulkan.end(), {"--device", "vulkan", "--method", method});
+        const ProgramRun asked = runProgram(on_vulkan, folder.path());
+        EXPECT_EQ(asked.status, 1) << method;
+        EXPECT_NE(asked.err.find("edgewise: error: device vulkan: "), std::string::npos) << asked.err;
+        EXPECT_TRUE(folder.names().empty()) << method;
+    }
     const ProgramRun automatic = runProgram(render, folder.path());
     EXPECT_EQ(automatic.status, 0) << automatic.err;
 }
@@ -127,6 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", "magic"}, "magic"},
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", "ssaa:0"}, "ssaa"},
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", "ssaa:x"}, "ssaa"},
+                    WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", "msaa:3"}, "2, 4, 8, 16"},
                     WrongCase{{"render", "torus-20k", "-o", "a.exr", "--method", ""}, "method"},
                     WrongCase{renderWith({"--device", "abacus"}), "--device"},
                     WrongCase{renderWith({"--precision", "fp16"}), "--precision"},

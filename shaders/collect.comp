@@ -1,0 +1,14 @@
+#version 460
+// One sample a pixel of the target, into the rows of all samples.
+#extension GL_EXT_samplerless_texture_functions : require
+layout(local_size_x = 8, local_size_y = 8) in;
+#include "shared/layouts.glsl"
+layout(std430, binding = 0) writeonly buffer Owners { uint owners[]; };
+layout(binding = 1) uniform utexture2D target;
+layout(push_constant) uniform Push { CollectPush push; };
+
+void main() {
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (at.x >= push.width || at.y >= push.height) return;
+    owners[(at.y * push.width + at.x) * push.samples + push.slot] = texelFetch(target, ivec2(at), 0).r;
+}
