@@ -137,7 +137,7 @@ std::string figureHtml(const StabilityCase& one, const Rows& rows, Judged judged
 
 const char* const kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;color:#222;margin:0;background:#f6f6f4}"
-    "main{max-width:1280px;margin:0 auto;padding:24px}h1{margin:0 0 4px}h2{margin:28px 0 8px;font-size:19px}"
+    "main{max-width:1640px;margin:0 auto;padding:24px}h1{margin:0 0 4px}h2{margin:28px 0 8px;font-size:19px}"
     "code{background:#ececea;padding:1px 5px;border-radius:3px;font-size:13px;overflow-wrap:anywhere}"
     ".figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(370px,1fr));gap:14px}"
     "figure{margin:0;background:#fff;border:1px solid #ddd;border-radius:6px;padding:10px 12px}"
@@ -174,22 +174,18 @@ std::string projectionCells(const std::optional<ProjectionErrors>& p) {
 
 std::string tableHtml(const Rows& rows) {
     std::string out =
-        "<div class='scroll'><table><tr><th>case</th><th>filter</th><th>condition</th><th>max "
-        "error</th><th>ulp</th><th>of its "
-        "bound</th><th>ownership errors</th><th>partition defect</th><th>label conflicts</th><th>exact "
-        "depths</th>"
-        "<th>fine orders</th><th>closings</th><th>&micro;s</th><th>map: ownership errors</th><th>small faces "
-        "shown otherwise</th><th>their area, px&sup2;</th><th>area error, of the support's square</th>"
-        "<th>vertex, px</th><th>of its "
-        "bound</th><th>cracks</th></tr>\n";
+        "<div class='scroll'><table><tr><th>case</th><th>filter</th><th>condition</th><th>max error</th>"
+        "<th>ulp</th><th>of its bound</th><th>ownership errors</th><th>in the map</th><th>small faces shown "
+        "otherwise</th><th>their area, px&sup2;</th><th>area error, of the support's square</th>"
+        "<th>partition defect</th><th>label conflicts</th><th>exact depths</th><th>fine orders</th>"
+        "<th>closings</th><th>&micro;s</th><th>vertex, px</th><th>of its bound</th><th>cracks</th></tr>\n";
     for (const StabilityRow& r : rows)
         out += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2e}</td><td>{:.3g}</td><td>{:.2f}</td><td>{}</"
-            "td>"
-            "<td>{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>{}{}</tr>\n",
+            "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2e}</td><td>{:.3g}</td><td>{:.2f}</td>"
+            "<td>{}</td>{}<td>{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>{}</tr>\n",
             escapedHtml(r.case_name), escapedHtml(r.filter), r.condition, r.max_error, r.max_error_ulp,
-            r.worst_of_bound, r.ownership_errors, r.partition_defect, r.label_conflicts, r.exact_depths,
-            r.fine_orders, r.closings, r.seconds * 1e6, mapCells(r), projectionCells(r.projection));
+            r.worst_of_bound, r.ownership_errors, mapCells(r), r.partition_defect, r.label_conflicts,
+            r.exact_depths, r.fine_orders, r.closings, r.seconds * 1e6, projectionCells(r.projection));
     return out + "</table></div>\n";
 }
 
