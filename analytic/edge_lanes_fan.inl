@@ -62,8 +62,9 @@ EDGEWISE_FN real polyMean(const LaneKernel& kernel, real h, Piece piece) {
 
 /// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. The
 /// parts' lengths add up to those of a short piece, which may be far better known than its ends: on the circle both
-/// forms of g agree, so that a cut may err along the line, but no length may be lost. Of a long piece the ends of the
-/// inside part are known better than its length. [E9]
+/// forms of g agree, so that a cut may err along the line, but no length may be lost: the ends are known to roundings
+/// of the radius, however short the chord is. Of a piece longer than the radius the ends of the inside part are known
+/// better than its length. [E9]
 EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece) {
     const real c = halfChord(h, splat(kernel.inner_radius)), none = splat(0.0);
     const mask whole = (piece.t2 <= -c) | (c <= 0.0);
@@ -74,7 +75,7 @@ EDGEWISE_FN real takeOuterAngles(const LaneKernel& kernel, real h, Piece& piece)
     const real before_end = whole ? piece.t2 : -c, after_start = larger(piece.t1, c);
     real angle = before > 0.0 ? subtendedAngle(h, piece.t1, before_end, before) : none;
     angle = angle + (after > 0.0 ? subtendedAngle(h, after_start, piece.t2, after) : none);
-    const mask is_long = (piece.length > c) & (before + after > 0.0);
+    const mask is_long = (piece.length > kernel.inner_radius) & (before + after > 0.0);
     piece.t1 = larger(piece.t1, -c);
     piece.t2 = smaller(piece.t2, c);
     piece.length = is_long ? larger(piece.t2 - piece.t1, none) : (piece.length - before) - after;
