@@ -16,8 +16,6 @@ using exact::Face;
 using exact::Rational;
 using exact::Region;
 
-constexpr double kAreaShare = 1e-13;
-
 std::string nameOf(Owner owner) {
     return owner == kBackground ? "the background" : fmt::format("{}", owner);
 }
@@ -93,9 +91,8 @@ class Judge {
             const FinePoint p = middleOf(chord, turned);
             if (!clearOf(owners_.walls(), quadPoint(p), kDiskPx / 2)) return;
             const std::optional<Owner> shown = owners_.at(p);
-            const bool chained = (!chord.before || chord.before->right == shown) &&
-                                 (!chord.after || chord.after->left == shown);
-            ask(p, chained ? shown : std::nullopt, exact::ownerAt(scene_, exactPoint(p)));
+            const bool sure = shown && owners_.confirmed(p, *shown, turned, kDiskPx);
+            ask(p, sure ? shown : std::nullopt, exact::ownerAt(scene_, exactPoint(p)));
         });
     }
 
@@ -136,7 +133,7 @@ class Judge {
 }  // namespace
 
 void MapReport::add(const MapReport& o) {
-    faces += o.faces, tied_faces += o.tied_faces, faces_with_disk += o.faces_with_disk;
+    maps += o.maps, faces += o.faces, tied_faces += o.tied_faces, faces_with_disk += o.faces_with_disk;
     small_faces += o.small_faces, unsure_faces += o.unsure_faces, small_area_px2 += o.small_area_px2;
     small_wrong.insert(small_wrong.end(), o.small_wrong.begin(), o.small_wrong.end());
     small_wrong_area_px2 += o.small_wrong_area_px2;
@@ -145,6 +142,7 @@ void MapReport::add(const MapReport& o) {
     ownership_errors += o.ownership_errors;
     max_area_error_px2 = std::max(max_area_error_px2, o.max_area_error_px2);
     area_bound_px2 = std::max(area_bound_px2, o.area_bound_px2);
+    max_area_share = std::max(max_area_share, o.max_area_share);
 }
 
 MapReport compareMaps(const ScreenScene& scene, const std::vector<Face>& faces, const VisibleMap& map,
@@ -153,7 +151,9 @@ MapReport compareMaps(const ScreenScene& scene, const std::vector<Face>& faces, 
                          {Rational(region.x1), Rational(region.y1)}};
     Rational rest = (box.high.x - box.low.x) * (box.high.y - box.low.y);
     MapReport report;
-    report.area_bound_px2 = kAreaShare * static_cast<double>(rest);
+    report.maps = 1;
+    const double box_px2 = static_cast<double>(rest);
+    report.area_bound_px2 = kAreaShare * box_px2;
     Judge judge(scene, map, region, report);
     std::map<Owner, Rational> truth;
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -165,6 +165,7 @@ MapReport compareMaps(const ScreenScene& scene, const std::vector<Face>& faces, 
     truth[kBackground] = rest;
     for (const bool turned : {false, true}) judge.pieces(turned);
     judge.areas(truth);
+    report.max_area_share = report.max_area_error_px2 / box_px2;
     return report;
 }
 

@@ -11,8 +11,11 @@ namespace edgewise::judge {
 
 /// A face that contains a disk of this diameter has to have the right owner.
 inline constexpr double kDiskPx = 0x1p-30;
+/// No owner's area may be off by more than this share of the box.
+inline constexpr double kAreaShare = 1e-13;
 
 struct MapReport {
+    std::size_t maps = 0;                  ///< compared
     std::size_t faces = 0;                 ///< of the oracle, in the box; the background is none
     std::size_t tied_faces = 0;            ///< of several surfaces
     std::size_t faces_with_disk = 0;       ///< a disk of kDiskPx was found in them
@@ -24,11 +27,12 @@ struct MapReport {
     std::size_t points = 0;  ///< asked: the middles of disks in the oracle's faces and in the map's pieces
     std::size_t ownership_errors = 0;  ///< points whose owners differ
     double max_area_error_px2 = 0.0;   ///< of an owner, the background included
-    double area_bound_px2 = 0.0;       ///< 1e-13 of the box
+    double area_bound_px2 = 0.0;       ///< kAreaShare of the box
+    double max_area_share = 0.0;       ///< the error as a share of its box
     std::string first;                 ///< the first ownership error in words
 
     void add(const MapReport& other);
-    bool good() const { return ownership_errors == 0 && max_area_error_px2 <= area_bound_px2; }
+    bool good() const { return ownership_errors == 0 && max_area_share <= kAreaShare; }
 };
 
 /// `faces` are visibleFaces() of the opaque scene over the box or more. The map's window holds the box and

@@ -15,6 +15,9 @@ using exact::Rational;
 class Surplus {
   public:
     void clear() { counts_.clear(); }
+    bool empty() const {
+        return std::ranges::all_of(counts_, [](const auto& count) { return count.second == 0; });
+    }
     void step(Owner from, Owner to) { --counts_[from], ++counts_[to]; }
     /// The owner whose surplus has this sign, if it is one and by one.
     std::optional<Owner> only(int sign) const {
@@ -71,6 +74,21 @@ Answer nearestWall(const std::vector<Wall>& walls, const QuadPoint& p, int way) 
     return owner ? Answer{Sought::kFound, *owner} : Answer{Sought::kDoubtful};
 }
 
+/// All walls no more than `reach_px` behind the nearest whose offset has the sign `way`.
+Surplus firstWalls(const std::vector<Wall>& walls, const QuadPoint& p, int way, double reach_px) {
+    std::vector<std::pair<QuadReal, const Wall*>> ahead;
+    for (const Wall& w : walls) {
+        if (!(w.a.y <= p.y && p.y < w.b.y)) continue;
+        const QuadReal distance = offsetAt(w, p).value * way;
+        if (distance > 0) ahead.emplace_back(distance, &w);
+    }
+    Surplus met;
+    const auto nearest = std::ranges::min_element(ahead);
+    for (const auto& [distance, wall] : ahead)
+        if (distance <= nearest->first + reach_px) met.step(wall->left, wall->right);
+    return met;
+}
+
 /// What lies beyond x: the part of the directed edge that is there, by its height within the box.
 Rational heightBeyond(exact::Point a, exact::Point b, const exact::Box& box) {
     if (b.y < a.y) return -heightBeyond(b, a, box);
@@ -113,6 +131,16 @@ std::optional<Owner> MapOwners::at(const FinePoint& point) const {
             return answer.sought == Sought::kFound ? std::optional(answer.owner) : std::nullopt;
     // Nothing along either axis: the sample row of the point's pixel has its owner there.
     return ownerOnRow(map_, static_cast<int>(std::floor(point.grid.y)), point.grid.x);
+}
+
+bool MapOwners::confirmed(const FinePoint& point, Owner owner, bool turned, double reach_px) const {
+    const QuadPoint p = quadPoint(point);
+    for (const int way : {1, -1}) {
+        const Surplus met =
+            turned ? firstWalls(exchanged_, {p.y, p.x}, way, reach_px) : firstWalls(walls_, p, way, reach_px);
+        if (!met.empty() && met.only(-way) != owner) return false;
+    }
+    return true;
 }
 
 /// The owner at the lower end of the box's right side, just left of it.

@@ -21,6 +21,11 @@ class MapOwners {
     /// where that is within the rounding of 113 bits of being a wall's other side.
     std::optional<Owner> at(const FinePoint& p) const;
 
+    /// Whether the nearest walls at the left and at the right, `turned` above and below, have this owner at
+    /// the point's side. Those within `reach_px` of the nearest count together: rounding may exchange them.
+    /// Where there is none, or behind them the same owner again, nothing contradicts.
+    bool confirmed(const FinePoint& p, Owner owner, bool turned, double reach_px) const;
+
     /// Each owner's area in the box, which lies in the map's window: px^2, exact for the segments.
     std::map<Owner, exact::Rational> areas(const exact::Region& box) const;
 

@@ -21,6 +21,7 @@ namespace {
 using exact::Real;
 
 struct Product {
+    VisibleMap map;
     std::map<Owner, FixedWeight> weights;
     FixedWeight sum = 0;
     std::uint64_t terms = 0, conflicts = 0;
@@ -36,12 +37,12 @@ Window windowAround(glm::ivec2 pixel, double radius) {
 Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
     Product out;
     Stopwatch watch;
-    const VisibleMap map = visibleMap(stiff.scene, windowAround(stiff.pixel, filter.radius), {}, &out.counts);
+    out.map = visibleMap(stiff.scene, windowAround(stiff.pixel, filter.radius), {}, &out.counts);
     const glm::dvec2 sample = glm::dvec2(stiff.pixel) + 0.5;
     PixelWeights engine(filter);
     engine.begin(sample, 1);
-    for (const VisibleSegment& s : map.segments) engine.add(s, map.lines[s.line], s.left, s.right);
-    const Owner base = ownerOnRow(map, stiff.pixel.y, sample.x + filter.radius);
+    for (const VisibleSegment& s : out.map.segments) engine.add(s, out.map.lines[s.line], s.left, s.right);
+    const Owner base = ownerOnRow(out.map, stiff.pixel.y, sample.x + filter.radius);
     std::vector<OwnerWeight> weights;
     std::size_t offset[2] = {0, 0};
     engine.finish(&base, weights, offset);
@@ -53,6 +54,8 @@ Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
 }
 
 struct Truth {
+    exact::Region box;  ///< around the support
+    std::vector<exact::Face> faces;
     std::map<Owner, Real> weights;
     Real error = 0;
 };
@@ -63,9 +66,10 @@ Truth runOracle(const StiffScene& stiff, const Prefilter& filter) {
     const exact::KernelWeights kernel(filter);
     const exact::Point at{exact::Rational(sample.x), exact::Rational(sample.y)};
     Truth truth;
+    truth.box = {sample.x - reach, sample.y - reach, sample.x + reach, sample.y + reach};
+    truth.faces = exact::visibleFaces(stiff.scene, truth.box);
     Real rest = 1;
-    for (const exact::Face& face : exact::visibleFaces(
-             stiff.scene, {sample.x - reach, sample.y - reach, sample.x + reach, sample.y + reach})) {
+    for (const exact::Face& face : truth.faces) {
         const exact::Weight w = kernel.of(face, at);
         truth.weights[face.owner] += w.value;
         truth.error += w.error;
@@ -119,7 +123,10 @@ StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double di
     for (int seed = 1; seed <= scenes; ++seed) {
         if (progress.cancelled()) throw Interrupted();
         const StiffScene stiff = one.make(difficulty, used, static_cast<std::uint64_t>(seed));
-        judge(runProduct(stiff, used), runOracle(stiff, used), row);
+        const Product product = runProduct(stiff, used);
+        const Truth truth = runOracle(stiff, used);
+        judge(product, truth, row);
+        judgeMap(stiff.scene, truth.faces, product.map, truth.box, row);
         if (!stiff.projection) continue;
         if (!row.projection) row.projection.emplace();
         row.projection->add(*stiff.projection);
@@ -145,6 +152,24 @@ std::vector<const StabilityCase*> chosenCases(const std::vector<std::string>& na
 
 double promisedBound(std::uint64_t terms) {
     return static_cast<double>(terms) * (10.0 * 0x1p-53 + 0x1p-61) + 0x1p-61;
+}
+
+void judgeMap(const ScreenScene& scene, const std::vector<exact::Face>& faces, const VisibleMap& map,
+              const exact::Region& box, StabilityRow& row) {
+    if (scene.triangles.size() > kMostTrianglesCompared) {
+        row.map_left_out = "too many triangles";
+        return;
+    }
+    if (!row.map) row.map.emplace();
+    row.map->add(compareMaps(scene, faces, map, box));
+}
+
+bool keepsPromises(const StabilityRow& r) {
+    const bool placed = !r.projection || (r.projection->worst_of_bound <= 1.0 && r.projection->cracks == 0 &&
+                                          r.projection->lost_areas == 0);
+    const bool mapped = !r.map || r.map->good();
+    return placed && mapped && r.worst_of_bound <= 1.0 && r.ownership_errors == 0 &&
+           r.partition_defect == 0.0 && r.label_conflicts == 0;
 }
 
 void checkCases(const StabilityOptions& options) {

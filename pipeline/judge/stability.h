@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analytic/prefilter.h"
+#include "pipeline/judge/map_comparison.h"
 #include "pipeline/judge/projection_witness.h"
 #include "pipeline/progress.h"
 
@@ -31,8 +32,20 @@ struct StabilityRow {
     std::uint64_t closings = 0;      ///< pieces that close what rounded planes left open
     double seconds = 0.0;            ///< the product's, a pixel
     double oracle_error = 0.0;       ///< the oracle's own estimate
+    std::optional<MapReport> map;    ///< of the support's square, face by face: all scenes compared together
+    std::string map_left_out;        ///< why not all maps were compared; empty where they were
     std::optional<ProjectionErrors> projection;  ///< of cases that a camera sees: all scenes together
 };
+
+/// Maps of more triangles are not compared: every point asked is looked for in each triangle, exactly.
+inline constexpr std::size_t kMostTrianglesCompared = 300;
+
+/// Adds what compareMaps() says to the row, or why it was not asked.
+void judgeMap(const ScreenScene& scene, const std::vector<exact::Face>& faces, const VisibleMap& map,
+              const exact::Region& box, StabilityRow& row);
+
+/// No error beyond its bound, and no owner or label wrong.
+bool keepsPromises(const StabilityRow& row);
 
 /// A weight that n terms make errs by at most n (10 u + 2^-61) + 2^-61, u = 2^-53: ten roundings of a term
 /// that is below 1, and the fixed point's.

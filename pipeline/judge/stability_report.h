@@ -12,7 +12,8 @@ namespace edgewise::judge {
 std::string stabilityJson(const std::vector<StabilityRow>& rows, const std::string& command);
 std::string stabilityCsv(const std::vector<StabilityRow>& rows);
 
-/// A booktabs table of the worst row of each (case, filter).
+/// A booktabs table of the worst row of each (case, filter); of its map the ownership errors, the smaller
+/// faces shown otherwise and their area, and the area error as a share of the support's square.
 std::string stabilityLatex(const std::vector<StabilityRow>& rows);
 
 /// One page that works from file://: a log-log plot of error against condition for each case, one colour a

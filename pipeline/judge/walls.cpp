@@ -19,19 +19,28 @@ FineCoordinate fineNear(QuadReal value) {
     return fineCoordinate(0.0, {high, static_cast<double>(value - high)});
 }
 
+/// The ordinates where a wall enters or leaves the box sideways: a slab between borders sees what lies in the
+/// box on its middle ordinate.
+void addSideCrossings(const Wall& w, const exact::Region& box, std::vector<QuadReal>& ordinates) {
+    for (const QuadReal x : {QuadReal(box.x0), QuadReal(box.x1)})
+        if ((w.a.x < x) != (w.b.x < x))
+            ordinates.push_back(w.a.y + (w.b.y - w.a.y) * ((x - w.a.x) / (w.b.x - w.a.x)));
+}
+
 std::vector<QuadReal> slabBorders(const std::vector<Wall>& walls, const exact::Region& box) {
     std::vector<QuadReal> borders = {box.y0, box.y1};
-    for (const Wall& w : walls)
-        for (const QuadReal y : {w.a.y, w.b.y})
-            if (y > box.y0 && y < box.y1) borders.push_back(y);
+    for (const Wall& w : walls) {
+        borders.insert(borders.end(), {w.a.y, w.b.y});
+        addSideCrossings(w, box, borders);
+    }
+    std::erase_if(borders, [&](QuadReal y) { return y < box.y0 || y > box.y1; });
     std::sort(borders.begin(), borders.end());
     borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
     return borders;
 }
 
-/// A wall that runs through a slab.
+/// Where a wall runs through a slab.
 struct Through {
-    const Wall* wall;
     QuadReal top, middle, bottom;  ///< abscissae
 };
 
@@ -40,7 +49,7 @@ std::vector<Through> wallsThrough(const std::vector<const Wall*>& open, QuadReal
     std::vector<Through> through;
     for (const Wall* w : open) {
         const QuadReal top = abscissa(*w, y0), bottom = abscissa(*w, y1);
-        through.push_back({w, top, (top + bottom) / 2, bottom});
+        through.push_back({top, (top + bottom) / 2, bottom});
     }
     std::sort(through.begin(), through.end(),
               [](const Through& p, const Through& q) { return p.middle < q.middle; });
@@ -53,7 +62,7 @@ void visitSlab(const std::vector<Through>& through, const exact::Region& box, Qu
     for (std::size_t i = 0; i <= through.size(); ++i) {
         const Through* before = i > 0 ? &through[i - 1] : nullptr;
         const Through* after = i < through.size() ? &through[i] : nullptr;
-        Chord chord{y, x0, x1, x1 - x0, i, before ? before->wall : nullptr, after ? after->wall : nullptr};
+        Chord chord{y, x0, x1, x1 - x0, i};
         if (before) chord.x0 = std::max(x0, before->middle);
         if (after) chord.x1 = std::min(x1, after->middle);
         if (before && after)

@@ -35,12 +35,12 @@ Wall wallBetween(const QuadPoint& a, const QuadPoint& b, Owner left, Owner right
 /// Where the wall is at an ordinate that it spans; it is not flat.
 QuadReal abscissa(const Wall& wall, QuadReal y);
 
-/// A piece between two neighbouring walls of the middle ordinate of a slab in which no wall begins or ends.
+/// A piece between two neighbouring walls of the middle ordinate of a slab in which no wall begins, ends or
+/// crosses a side of the box.
 struct Chord {
-    QuadReal y, x0, x1;          ///< cut to the box
-    QuadReal widest;             ///< of the whole trapezoid: no chord in it is longer
-    std::size_t index;           ///< how many walls are at its left
-    const Wall *before, *after;  ///< nullptr where there is none
+    QuadReal y, x0, x1;  ///< cut to the box
+    QuadReal widest;     ///< of the whole trapezoid: no chord in it is longer
+    std::size_t index;   ///< how many walls are at its left
 };
 
 /// All chords of the box, slab by slab, from left to right; empty ones are left out.

@@ -64,8 +64,9 @@ EDGEWISE_FN work polyMean(EDGEWISE_KERNEL_IN work h, Piece piece) {
 
 /// The Gaussian's disk beyond inner_radius, where g is 1/(2 pi r^2): angles, and the piece that is left inside. The
 /// parts' lengths add up to those of a short piece, which may be far better known than its ends: on the circle both
-/// forms of g agree, so that a cut may err along the line, but no length may be lost. Of a long piece the ends of the
-/// inside part are known better than its length. [E9]
+/// forms of g agree, so that a cut may err along the line, but no length may be lost: the ends are known to roundings
+/// of the radius, however short the chord is. Of a piece longer than the radius the ends of the inside part are known
+/// better than its length. [E9]
 EDGEWISE_FN work takeOuterAngles(EDGEWISE_KERNEL_IN work h, EDGEWISE_INOUT(Piece) piece) {
     work none = splatWork(EDGEWISE_WORK(0.0));
     work c = halfChord(h, splatWork(numberOf(kernel.inner_radius)));
@@ -78,7 +79,7 @@ EDGEWISE_FN work takeOuterAngles(EDGEWISE_KERNEL_IN work h, EDGEWISE_INOUT(Piece
     work after_start = larger(piece.t1, c);
     work angle = before > EDGEWISE_WORK(0.0) ? subtendedAngle(h, piece.t1, before_end, before) : none;
     angle = angle + (after > EDGEWISE_WORK(0.0) ? subtendedAngle(h, after_start, piece.t2, after) : none);
-    work_mask is_long = EDGEWISE_BOTH(piece.len > c, before + after > EDGEWISE_WORK(0.0));
+    work_mask is_long = EDGEWISE_BOTH(piece.len > numberOf(kernel.inner_radius), before + after > EDGEWISE_WORK(0.0));
     piece.t1 = larger(piece.t1, -c);
     piece.t2 = smaller(piece.t2, c);
     piece.len = is_long ? larger(piece.t2 - piece.t1, none) : (piece.len - before) - after;

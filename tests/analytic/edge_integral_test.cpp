@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -239,6 +240,37 @@ TEST(EdgeIntegral, FanTermsMatchQuadrature) {
         check({name, {}, {}, 100, false}, kRelativeU, kAbsoluteU);
     for (double sigma : {2e-3, 0.2, 20.0, 200.0})
         check({"gaussian", 2, sigma, 40, false}, kRelativeU, kAbsoluteU);
+}
+
+/// Short chords of the circle of 9.25 sigma that reach beyond it at both ends: there the term is the angle
+/// over 2 pi to 2^-61, in either form of g, and keeps its relative accuracy although the chord's ends are
+/// known to roundings of the radius only.
+TEST(EdgeIntegral, ShortChordsOfANarrowGaussiansInnerCircleKeepTheirLength) {
+    const EdgeKernel kernel(makePrefilter("gaussian", 2, 0.05));
+    const double circle = kernel.lanes.inner_radius;
+    std::mt19937 random(kSeed);
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    Real worst = 0;
+    int chords = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double angle = uniform(-M_PI, M_PI), depth = std::pow(10.0, uniform(-9, -6));
+        const double half = std::sqrt(2 * circle * depth);
+        const Point d{std::cos(angle), std::sin(angle)}, foot = (circle - depth) * Point{d.y, -d.x};
+        const Edge edge{grid(foot - half * uniform(1, 9) * d), grid(foot + half * uniform(1, 9) * d)};
+        chords += std::abs(Foot(edge).h) < Real(circle);
+        const Wide across = Wide(edge.a.x) * edge.b.y - Wide(edge.a.y) * edge.b.x;
+        const Wide along = Wide(edge.a.x) * edge.b.x + Wide(edge.a.y) * edge.b.y;
+        const Real turns = std::atan2(std::abs(Real(across)), Real(along)) / (2 * std::numbers::pi_v<Real>);
+        const EdgeTerms terms = termsOf(kernel, edge, chooseEdgeTerms());
+        ASSERT_FALSE((terms.crossed[0] | terms.crossed[1]) & 1);
+        const Real off = std::abs(std::abs(std::ldexp(Real(terms.value[0]), -60)) - turns);
+        worst = std::max(worst, (off - 0x1p-61L) / turns / kU);
+    }
+    std::printf("%d chords, worst %.2Lg u relative\n", chords, worst);
+    EXPECT_GT(chords, 1000);
+    EXPECT_LE(worst, kRelativeU);
 }
 
 TEST(EdgeIntegral, StripTermsMatchQuadrature) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "analytic/visibility.h"
+#include "pipeline/judge/map_owners.h"
 #include "tests/witness/hard_cases.h"
 #include "tests/witness/random_scenes.h"
 #include "tests/witness/scene_builder.h"
@@ -193,6 +194,37 @@ TEST(WrongMaps, ASpeckMadeUpIsFoundByItsOwner) {
     EXPECT_LT(report.max_area_error_px2, 0.1 * report.area_bound_px2);
     EXPECT_GT(report.ownership_errors, 0u);
     EXPECT_NE(report.first.find("2 instead of 0"), std::string::npos) << report.first;
+}
+
+/// Its side cuts a corner off the box; all its own corners lie outside.
+TEST(MapComparisonPoints, AFaceInACornerOfTheBoxIsAsked) {
+    witness::SceneBuilder builder;
+    builder.addPlane(DepthPlane{0, 0, 1});
+    builder.addOnPlane({glm::dvec2{-10, -10}, {10.5, -10}, {-10, 10.5}}, 0);
+    const exact::Region box{0, 0, 8, 8};
+    const MapReport report = judge::compareMaps(builder.scene(), exact::visibleFaces(builder.scene(), box),
+                                                visibleMap(builder.scene(), windowOf(box)), box);
+    EXPECT_TRUE(report.good()) << report.first;
+    EXPECT_EQ(report.faces_with_disk, 1u);
+    EXPECT_EQ(report.small_faces, 0u);
+}
+
+VisibleSegment uprightAt(FinePoint top, Owner left, Owner right) {
+    VisibleSegment s;
+    s.a = top, s.b = top, s.b.grid.y += 8;
+    s.left = left, s.right = right;
+    return s;
+}
+
+TEST(MapOwners, WallsThatRoundingExchangedCountTogether) {
+    VisibleMap map;
+    map.segments = {uprightAt({{1, 0}, {0, 0}}, 4, 5), uprightAt({{1, 0}, {-0x1p-74, 0}}, 5, 6)};
+    const judge::MapOwners owners(map);
+    const FinePoint before{{0.5, 4}, {0, 0}}, behind{{2, 4}, {0, 0}};
+    EXPECT_TRUE(owners.confirmed(before, 4, false, judge::kDiskPx));
+    EXPECT_TRUE(owners.confirmed(behind, 6, false, judge::kDiskPx));
+    for (const Owner other : {5u, 6u}) EXPECT_FALSE(owners.confirmed(before, other, false, judge::kDiskPx));
+    EXPECT_FALSE(owners.confirmed(before, 4, false, 0));  // alone, the nearer one says 5
 }
 
 }  // namespace
