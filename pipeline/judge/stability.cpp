@@ -20,13 +20,21 @@ namespace {
 
 using exact::Real;
 
-struct Product {
-    VisibleMap map;
+/// Of a weight in fp32.
+constexpr double kFloatBound = 64.0 * 0x1p-24;
+
+struct Weighed {
     std::map<Owner, FixedWeight> weights;
     FixedWeight sum = 0;
     std::uint64_t terms = 0, conflicts = 0;
+    double seconds = 0.0;
+};
+
+struct Product {
+    VisibleMap map;
     VisibilityCounts counts;
     double seconds = 0.0;
+    Weighed fp64, fp32;
 };
 
 Window windowAround(glm::ivec2 pixel, double radius) {
@@ -34,15 +42,14 @@ Window windowAround(glm::ivec2 pixel, double radius) {
     return {pixel.x - reach, pixel.y - reach, pixel.x + reach + 1, pixel.y + reach + 1};
 }
 
-Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
-    Product out;
+Weighed weigh(const VisibleMap& map, glm::ivec2 pixel, const Prefilter& filter, Precision precision) {
+    Weighed out;
     Stopwatch watch;
-    out.map = visibleMap(stiff.scene, windowAround(stiff.pixel, filter.radius), {}, &out.counts);
-    const glm::dvec2 sample = glm::dvec2(stiff.pixel) + 0.5;
-    PixelWeights engine(filter);
+    const glm::dvec2 sample = glm::dvec2(pixel) + 0.5;
+    PixelWeights engine(filter, precision);
     engine.begin(sample, 1);
-    for (const VisibleSegment& s : out.map.segments) engine.add(s, out.map.lines[s.line], s.left, s.right);
-    const Owner base = ownerOnRow(out.map, stiff.pixel.y, sample.x + filter.radius);
+    for (const VisibleSegment& s : map.segments) engine.add(s, map.lines[s.line], s.left, s.right);
+    const Owner base = ownerOnRow(map, pixel.y, sample.x + filter.radius);
     std::vector<OwnerWeight> weights;
     std::size_t offset[2] = {0, 0};
     engine.finish(&base, weights, offset);
@@ -50,6 +57,16 @@ Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
     for (const OwnerWeight& w : weights) out.weights[w.owner] = w.weight, out.sum += w.weight;
     out.terms = engine.terms();
     out.conflicts = engine.label_conflicts();
+    return out;
+}
+
+Product runProduct(const StiffScene& stiff, const Prefilter& filter) {
+    Product out;
+    Stopwatch watch;
+    out.map = visibleMap(stiff.scene, windowAround(stiff.pixel, filter.radius), {}, &out.counts);
+    out.seconds = watch.lap();
+    out.fp64 = weigh(out.map, stiff.pixel, filter, Precision::kFp64);
+    out.fp32 = weigh(out.map, stiff.pixel, filter, Precision::kFp32);
     return out;
 }
 
@@ -79,9 +96,18 @@ Truth runOracle(const StiffScene& stiff, const Prefilter& filter) {
     return truth;
 }
 
-void judge(const Product& product, const Truth& truth, StabilityRow& row) {
-    constexpr double kSeen = 0x1p-50, kSizeable = 0x1p-30;
-    const double bound = promisedBound(product.terms);
+/// One unit in the last place that a number of this size has.
+double lastPlace(double size, Precision precision) {
+    if (precision == Precision::kFp64) return std::nextafter(size, 2.0) - size;
+    const auto rounded = static_cast<float>(size);
+    return static_cast<double>(std::nextafter(rounded, 2.0f)) - static_cast<double>(rounded);
+}
+
+/// All owners that either sees.
+std::size_t judgeWeights(const Weighed& product, const Truth& truth, Precision precision, WeightErrors& out) {
+    constexpr double kSizeable = 0x1p-30;
+    const double bound = promisedBound(product.terms, precision);
+    const double seen = precision == Precision::kFp64 ? 0x1p-50 : kFloatBound;
     auto all = truth.weights;
     for (const auto& [owner, weight] : product.weights) all.try_emplace(owner, 0);
     for (const auto& [owner, exact_weight] : all) {
@@ -89,24 +115,30 @@ void judge(const Product& product, const Truth& truth, StabilityRow& row) {
         const FixedWeight fixed = found == product.weights.end() ? 0 : found->second;
         const double error = std::abs(static_cast<double>(Real(Real(fixed) * Real(0x1p-60) - exact_weight)));
         const double size = std::abs(static_cast<double>(exact_weight));
-        if (error > row.max_error) row.max_error = error, row.bound = bound;
-        row.worst_of_bound = std::max(row.worst_of_bound, error / bound);
+        if (error > out.max_error) out.max_error = error, out.bound = bound;
+        out.worst_of_bound = std::max(out.worst_of_bound, error / bound);
         if (size >= kSizeable) {
-            row.max_relative = std::max(row.max_relative, error / size);
-            row.max_error_ulp = std::max(row.max_error_ulp, error / (std::nextafter(size, 2.0) - size));
+            out.max_relative = std::max(out.max_relative, error / size);
+            out.max_error_ulp = std::max(out.max_error_ulp, error / lastPlace(size, precision));
         }
-        row.ownership_errors += (fixed == 0) != (size < 0x1p-61) && std::max(size, error) >= kSeen;
-        ++row.weights;
+        out.ownership_errors += (fixed == 0) != (size < 0x1p-61) && std::max(size, error) >= seen;
     }
-    if (row.bound == 0.0) row.bound = bound;
-    row.partition_defect =
-        std::max(row.partition_defect,
+    if (out.bound == 0.0) out.bound = bound;
+    out.partition_defect =
+        std::max(out.partition_defect,
                  std::abs(std::ldexp(double(product.sum - (FixedWeight{1} << kWeightBits)), -60)));
-    row.label_conflicts += product.conflicts;
+    out.label_conflicts += product.conflicts;
+    return all.size();
+}
+
+void judge(const Product& product, const Truth& truth, StabilityRow& row) {
+    row.weights += judgeWeights(product.fp64, truth, Precision::kFp64, row);
+    judgeWeights(product.fp32, truth, Precision::kFp32, row.fp32);
     row.exact_depths += product.counts.exact_depth;
     row.fine_orders += product.counts.fine_orders;
     row.closings += product.counts.closings;
-    row.seconds += product.seconds;
+    row.seconds += product.seconds + product.fp64.seconds;
+    row.fp32.seconds += product.seconds + product.fp32.seconds;
     row.oracle_error = std::max(row.oracle_error, static_cast<double>(truth.error));
     ++row.scenes;
 }
@@ -131,7 +163,7 @@ StabilityRow runRow(const StabilityCase& one, const Prefilter& filter, double di
         if (!row.projection) row.projection.emplace();
         row.projection->add(*stiff.projection);
     }
-    row.seconds /= scenes;
+    row.seconds /= scenes, row.fp32.seconds /= scenes;
     return row;
 }
 
@@ -150,7 +182,8 @@ std::vector<const StabilityCase*> chosenCases(const std::vector<std::string>& na
 
 }  // namespace
 
-double promisedBound(std::uint64_t terms) {
+double promisedBound(std::uint64_t terms, Precision precision) {
+    if (precision == Precision::kFp32) return kFloatBound;
     return static_cast<double>(terms) * (10.0 * 0x1p-53 + 0x1p-61) + 0x1p-61;
 }
 
@@ -164,12 +197,16 @@ void judgeMap(const ScreenScene& scene, const std::vector<exact::Face>& faces, c
     row.map->add(compareMaps(scene, faces, map, box));
 }
 
+static bool keepsPromises(const WeightErrors& e) {
+    return e.worst_of_bound <= 1.0 && e.ownership_errors == 0 && e.partition_defect == 0.0 &&
+           e.label_conflicts == 0;
+}
+
 bool keepsPromises(const StabilityRow& r) {
     const bool placed = !r.projection || (r.projection->worst_of_bound <= 1.0 && r.projection->cracks == 0 &&
                                           r.projection->lost_areas == 0);
     const bool mapped = !r.map || r.map->good();
-    return placed && mapped && r.worst_of_bound <= 1.0 && r.ownership_errors == 0 &&
-           r.partition_defect == 0.0 && r.label_conflicts == 0;
+    return placed && mapped && keepsPromises(static_cast<const WeightErrors&>(r)) && keepsPromises(r.fp32);
 }
 
 void checkCases(const StabilityOptions& options) {

@@ -49,6 +49,18 @@ Json mapJson(const std::optional<MapReport>& m) {
             {"max_area_share", m->max_area_share}};
 }
 
+Json floatJson(const WeightErrors& e) {
+    return {{"max_error", e.max_error},
+            {"max_error_ulp", e.max_error_ulp},
+            {"max_relative", e.max_relative},
+            {"bound", e.bound},
+            {"worst_of_bound", e.worst_of_bound},
+            {"ownership_errors", e.ownership_errors},
+            {"partition_defect", e.partition_defect},
+            {"label_conflicts", e.label_conflicts},
+            {"seconds", e.seconds}};
+}
+
 Json rowJson(const StabilityRow& r) {
     return {{"case", r.case_name},
             {"filter", r.filter},
@@ -68,6 +80,7 @@ Json rowJson(const StabilityRow& r) {
             {"closings", r.closings},
             {"seconds", r.seconds},
             {"oracle_error", r.oracle_error},
+            {"fp32", floatJson(r.fp32)},
             {"map", mapJson(r.map)},
             {"map_left_out", r.map_left_out.empty() ? Json() : Json(r.map_left_out)},
             {"projection", projectionJson(r.projection)}};
@@ -85,7 +98,11 @@ std::map<std::string, std::string> colorsOf(const Rows& rows) {
     return out;
 }
 
-enum class Judged { kWeights, kVertices };
+enum class Judged { kWeights, kFloatWeights, kVertices };
+
+const WeightErrors& errorsOf(const StabilityRow& r, Judged judged) {
+    return judged == Judged::kFloatWeights ? r.fp32 : r;
+}
 
 std::vector<PlotSeries> seriesOf(const Rows& rows, const std::string& case_name, Judged judged) {
     std::map<std::string, PlotSeries> by_filter;
@@ -94,10 +111,11 @@ std::vector<PlotSeries> seriesOf(const Rows& rows, const std::string& case_name,
         if (r.case_name != case_name || (judged == Judged::kVertices && !r.projection)) continue;
         PlotSeries& one = by_filter[r.filter];
         one.name = r.filter, one.color = colors.at(r.filter);
-        if (judged == Judged::kWeights)
-            one.points.push_back({r.condition, r.max_error, r.bound});
-        else
+        const WeightErrors& errors = errorsOf(r, judged);
+        if (judged == Judged::kVertices)
             one.points.push_back({r.condition, r.projection->max_px, r.projection->bound_px});
+        else
+            one.points.push_back({r.condition, errors.max_error, errors.bound});
     }
     std::vector<PlotSeries> out;
     for (auto& [filter, one] : by_filter) {
@@ -107,11 +125,11 @@ std::vector<PlotSeries> seriesOf(const Rows& rows, const std::string& case_name,
     return out;
 }
 
-/// The same decades for every plot of weights, so that eyes can compare.
-PlotAxis weightAxis(const Rows& rows) {
-    PlotAxis all{-18, -12};
+/// The same decades for every plot of weights of one precision, so that eyes can compare.
+PlotAxis weightAxis(const Rows& rows, Judged judged) {
+    PlotAxis all = judged == Judged::kFloatWeights ? PlotAxis{-12, -5} : PlotAxis{-18, -12};
     for (const StabilityRow& r : rows)
-        for (const double v : {r.max_error, r.bound})
+        for (const double v : {errorsOf(r, judged).max_error, errorsOf(r, judged).bound})
             if (v > 0.0) all.high = std::max(all.high, static_cast<int>(std::ceil(std::log10(v))));
     return all;
 }
@@ -119,20 +137,24 @@ PlotAxis weightAxis(const Rows& rows) {
 std::string figureHtml(const StabilityCase& one, const Rows& rows, Judged judged) {
     const auto series = seriesOf(rows, one.name, judged);
     if (series.empty()) return "";
-    const bool weights = judged == Judged::kWeights;
+    const bool weights = judged != Judged::kVertices;
     const PlotFrame frame{one.condition,
                           weights ? "largest error of a weight" : "largest error of a vertex, px",
                           one.name + ": error against " + one.condition, xAxisOf(series),
-                          weights ? weightAxis(rows) : errorAxisOf(series)};
+                          weights ? weightAxis(rows, judged) : errorAxisOf(series)};
     double of_bound = 0.0;
     for (const StabilityRow& r : rows)
         if (r.case_name == one.name)
-            of_bound = std::max(of_bound, weights ? r.worst_of_bound : r.projection->worst_of_bound);
+            of_bound = std::max(of_bound,
+                                weights ? errorsOf(r, judged).worst_of_bound : r.projection->worst_of_bound);
     return fmt::format(
         "<figure><figcaption><b>{}{}</b><span class='{}'>{:.2g} of the bound</span><br>{}"
         "</figcaption>{}</figure>\n",
-        escapedHtml(one.name), weights ? "" : ", projection", of_bound <= 1.0 ? "good" : "bad", of_bound,
-        escapedHtml(one.what), plotSvg(frame, series));
+        escapedHtml(one.name),
+        judged == Judged::kWeights        ? ""
+        : judged == Judged::kFloatWeights ? ", fp32"
+                                          : ", projection",
+        of_bound <= 1.0 ? "good" : "bad", of_bound, escapedHtml(one.what), plotSvg(frame, series));
 }
 
 const char* const kStyle =
@@ -175,17 +197,20 @@ std::string projectionCells(const std::optional<ProjectionErrors>& p) {
 std::string tableHtml(const Rows& rows) {
     std::string out =
         "<div class='scroll'><table><tr><th>case</th><th>filter</th><th>condition</th><th>max error</th>"
-        "<th>ulp</th><th>of its bound</th><th>ownership errors</th><th>in the map</th><th>small faces shown "
+        "<th>ulp</th><th>of its bound</th><th>fp32 max error</th><th>of its bound</th><th>ownership "
+        "errors</th><th>in the map</th><th>small faces shown "
         "otherwise</th><th>their area, px&sup2;</th><th>area error, of the support's square</th>"
         "<th>partition defect</th><th>label conflicts</th><th>exact depths</th><th>fine orders</th>"
         "<th>closings</th><th>&micro;s</th><th>vertex, px</th><th>of its bound</th><th>cracks</th></tr>\n";
     for (const StabilityRow& r : rows)
         out += fmt::format(
             "<tr><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2e}</td><td>{:.3g}</td><td>{:.2f}</td>"
-            "<td>{}</td>{}<td>{:g}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>{}</tr>\n",
+            "<td>{:.2e}</td><td>{:.2f}</td><td>{}</td>{}<td>{:g}</td><td>{}</td><td>{}</td><td>{}</"
+            "td><td>{}</td><td>{:.1f}</td>{}</tr>\n",
             escapedHtml(r.case_name), escapedHtml(r.filter), r.condition, r.max_error, r.max_error_ulp,
-            r.worst_of_bound, r.ownership_errors, mapCells(r), r.partition_defect, r.label_conflicts,
-            r.exact_depths, r.fine_orders, r.closings, r.seconds * 1e6, projectionCells(r.projection));
+            r.worst_of_bound, r.fp32.max_error, r.fp32.worst_of_bound, r.ownership_errors, mapCells(r),
+            r.partition_defect, r.label_conflicts, r.exact_depths, r.fine_orders, r.closings, r.seconds * 1e6,
+            projectionCells(r.projection));
     return out + "</table></div>\n";
 }
 
@@ -297,13 +322,15 @@ std::string stabilityCsv(const Rows& rows) {
 
 std::string stabilityLatex(const Rows& rows) {
     std::string out =
-        "\\begin{tabular}{llrrrrrrrrr}\n\\toprule\ncase & filter & worst at & max error & of its bound & "
+        "\\begin{tabular}{llrrrrrrrrrrr}\n\\toprule\ncase & filter & worst at & max error & of its bound & "
+        "fp32 & of its bound & "
         "ownership errors & in the map & small faces & px$^2$ & area & vertices, px\\\\\n\\midrule\n";
     for (const StabilityRow& row : worstRows(rows))
-        out += fmt::format(
-            "{} & {} & {:.0e} & {:.1e} & {:.2f} & {} & {} & {}\\\\\n", row.case_name, row.filter,
-            row.condition, row.max_error, row.worst_of_bound, row.ownership_errors, mapColumns(row),
-            row.projection ? fmt::format("{:.1e}", row.projection->max_px) : std::string("--"));
+        out +=
+            fmt::format("{} & {} & {:.0e} & {:.1e} & {:.2f} & {:.1e} & {:.2f} & {} & {} & {}\\\\\n",
+                        row.case_name, row.filter, row.condition, row.max_error, row.worst_of_bound,
+                        row.fp32.max_error, row.fp32.worst_of_bound, row.ownership_errors, mapColumns(row),
+                        row.projection ? fmt::format("{:.1e}", row.projection->max_px) : std::string("--"));
     return out + "\\bottomrule\n\\end{tabular}\n";
 }
 
@@ -317,7 +344,7 @@ std::string stabilityHtml(const Rows& rows, const std::string& command) {
         kStyle, summary(rows), version(), escapedHtml(command));
     out += legend(rows) + "<div class='figures'>\n";
     for (const StabilityCase& one : stabilityCases())
-        for (const Judged judged : {Judged::kWeights, Judged::kVertices})
+        for (const Judged judged : {Judged::kWeights, Judged::kFloatWeights, Judged::kVertices})
             out += figureHtml(one, rows, judged);
     out += "</div>\n<h2>The worst of each case and filter</h2>\n" + tableHtml(worstRows(rows));
     return out + "<details><summary>All rows</summary>\n" + tableHtml(rows) + "</details></main></html>\n";

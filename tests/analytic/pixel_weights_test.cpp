@@ -324,17 +324,19 @@ TEST(PixelWeights, InstructionSetsAgreeBitForBit) {
         for (int round = 0; round < 20; ++round) {
             const auto triangles = randomFan(random, filter.radius);
             const auto segments = segmentsOf(triangles);
-            Weights reference;
-            for (const char* set : sets) {
-                if (!edgeTermsFor(set)) continue;
-                setenv("EDGEWISE_ISA", set, 1);
-                PixelWeights weights(filter);
-                const Weights got = weightsOf(weights, filter.radius, triangles, segments, {0.5, 4.5});
-                if (reference.empty()) reference = got;
-                EXPECT_EQ(reference, got) << name << ", " << set;
-                ++compared;
+            for (const Precision precision : {Precision::kFp64, Precision::kFp32}) {
+                Weights reference;
+                for (const char* set : sets) {
+                    if (!edgeTermsFor(set, precision)) continue;
+                    setenv("EDGEWISE_ISA", set, 1);
+                    PixelWeights weights(filter, precision);
+                    const Weights got = weightsOf(weights, filter.radius, triangles, segments, {0.5, 4.5});
+                    if (reference.empty()) reference = got;
+                    EXPECT_EQ(reference, got) << name << ", " << set;
+                    ++compared;
+                }
+                unsetenv("EDGEWISE_ISA");
             }
-            unsetenv("EDGEWISE_ISA");
         }
     }
     std::printf("%d maps compared\n", compared);

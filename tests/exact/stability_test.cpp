@@ -22,6 +22,7 @@ struct Seen {
     std::size_t weights = 0;
     std::uint64_t exact_depths = 0, fine_orders = 0;
     double worst = 0.0, of_bound = 0.0;
+    double float_worst = 0.0;
     ProjectionErrors projection;
     MapReport maps;
 };
@@ -43,6 +44,11 @@ void expectWithinBounds(const StabilityRow& row, Seen& seen) {
     EXPECT_EQ(row.ownership_errors, 0u) << where;
     EXPECT_EQ(row.partition_defect, 0.0) << where;
     EXPECT_EQ(row.label_conflicts, 0u) << where;
+    EXPECT_EQ(row.fp32.bound, 64.0 * 0x1p-24) << where;
+    EXPECT_LE(row.fp32.worst_of_bound, 1.0) << where << ", fp32 error " << row.fp32.max_error;
+    EXPECT_EQ(row.fp32.ownership_errors, 0u) << where << " in fp32";
+    EXPECT_EQ(row.fp32.partition_defect, 0.0) << where << " in fp32";
+    EXPECT_EQ(row.fp32.label_conflicts, 0u) << where << " in fp32";
     EXPECT_LT(row.oracle_error, 1e-30) << where;
     EXPECT_TRUE(row.map || row.map_left_out == "too many triangles") << where;
     if (row.map) expectMapped(*row.map, where), seen.maps.add(*row.map);
@@ -51,6 +57,7 @@ void expectWithinBounds(const StabilityRow& row, Seen& seen) {
     seen.exact_depths += row.exact_depths, seen.fine_orders += row.fine_orders;
     seen.worst = std::max(seen.worst, row.max_error);
     seen.of_bound = std::max(seen.of_bound, row.worst_of_bound);
+    seen.float_worst = std::max(seen.float_worst, row.fp32.max_error);
 }
 
 /// Runs, prints what was met, and demands that the hard parts were.
@@ -61,8 +68,11 @@ std::vector<StabilityRow> expectStable(const StabilityOptions& options) {
     for (const StabilityRow& row : rows) expectWithinBounds(row, seen);
     const ProjectionErrors& p = seen.projection;
     fmt::print(
-        "{} rows, {} weights, {} exact depths, {} fine orders, worst error {:.1e}, {:.2f} of its bound\n",
-        rows.size(), seen.weights, seen.exact_depths, seen.fine_orders, seen.worst, seen.of_bound);
+        "{} rows, {} weights, {} exact depths, {} fine orders, worst error {:.1e}, {:.2f} of its bound; "
+        "fp32 {:.1e}\n",
+        rows.size(), seen.weights, seen.exact_depths, seen.fine_orders, seen.worst, seen.of_bound,
+        seen.float_worst);
+    EXPECT_GT(seen.float_worst, 0x1p-30) << "fp32 ran in double";
     fmt::print("{} vertices, {} made by planes, {} shared clipped edges, {} undecided, worst {:.1e} px\n",
                p.vertices, p.made, p.shared_edges, p.undecided, p.max_px);
     const MapReport& m = seen.maps;
@@ -206,15 +216,17 @@ TEST(Stability, MapsThatAreNotComparedSayWhy) {
 TEST(Stability, ReportsHoldEveryRow) {
     StabilityRow row;
     row.case_name = "slivers", row.filter = "box", row.condition = 1e-3, row.max_error = 2e-16,
-    row.bound = 1e-14, row.worst_of_bound = 0.02;
+    row.bound = 1e-14, row.worst_of_bound = 0.02, row.fp32.max_error = 3e-8, row.fp32.worst_of_bound = 0.01;
     const std::vector<StabilityRow> rows{row, row};
     const std::string csv = stabilityCsv(rows);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_NE(stabilityHtml(rows, "a < b").find("a &lt; b"), std::string::npos);
-    EXPECT_NE(
-        stabilityLatex(rows).find("slivers & box & 1e-03 & 2.0e-16 & 0.02 & 0 & \\multicolumn{4}{l}{} & --"),
-        std::string::npos);
+    EXPECT_NE(stabilityLatex(rows).find(
+                  "slivers & box & 1e-03 & 2.0e-16 & 0.02 & 3.0e-08 & 0.01 & 0 & \\multicolumn{4}{l}{} & --"),
+              std::string::npos);
     EXPECT_NE(stabilityJson(rows, "x").find("\"max_error\": 2e-16"), std::string::npos);
+    EXPECT_NE(stabilityJson(rows, "x").find("\"max_error\": 3e-08"), std::string::npos);
+    EXPECT_NE(csv.find("fp32.max_error"), std::string::npos);
 }
 
 }  // namespace
