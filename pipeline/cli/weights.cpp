@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -78,19 +77,26 @@ void addExact(const MethodInput& input, glm::ivec2 pixel, const PixelReport& rep
 #endif
 }
 
+/// On a device only if it is asked for: making its pipelines takes longer than a pixel. A build without
+/// Vulkan has refused by now.
+PixelReport weighPixel(const MethodInput& input, glm::ivec2 pixel) {
+#ifdef EDGEWISE_HAS_VULKAN
+    if (input.options.device == DeviceChoice::kVulkan) return pixelWeightsVulkan(input, pixel.x, pixel.y);
+#endif
+    return pixelWeights(input, pixel.x, pixel.y);
+}
+
 void weights(const WeightsArguments& arguments) {
     const Prefilter filter = readFilter(arguments.filter);
     const RenderOptions options = readMethodOptions(arguments.making);
     checkAbilities(arguments.making, parseMethod("nsaa"));
-    if (options.device == DeviceChoice::kVulkan)
-        spdlog::warn("'weights' has no Vulkan form here and ran on the CPU");
     const ThreadLimit threads(options);
     ProgressBar quiet(false, interruptFlag());
     const Picture picture = loadPicture(arguments.picture, quiet);
     warnOfIgnored(picture.scene);
     const glm::ivec2 pixel = readPixel(arguments.pixel, picture.film);
     const PixelReport report =
-        pixelWeights({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel.x, pixel.y);
+        weighPixel({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel);
 
     Json json{{"pixel", {pixel.x, pixel.y}},     {"size", {picture.film.width, picture.film.height}},
               {"filter", filterJson(filter)},    {"weights", Json::array()},

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/error.h"
+#include "pipeline/device_error.h"
 #ifdef EDGEWISE_HAS_VULKAN
 #include "pipeline/vulkan/device_traits.h"
 #endif
@@ -51,8 +51,7 @@ DeviceDecision decideDevice(DeviceChoice choice, bool has_form) {
     if (choice == DeviceChoice::kCpu) return {false, "the CPU was asked for"};
     if (kBuilt && !has_form) return {false, "it has no Vulkan form here"};
     DeviceDecision decision = askMachine(choice == DeviceChoice::kAuto);
-    if (choice == DeviceChoice::kVulkan && !decision.vulkan)
-        throw FailureError("device vulkan", decision.why);
+    if (choice == DeviceChoice::kVulkan && !decision.vulkan) throw DeviceError(decision.why);
     return decision;
 }
 

@@ -25,4 +25,7 @@ struct PixelReport {
 /// The exact weights of one pixel of the film; every owner stands for itself.
 PixelReport pixelWeights(const MethodInput& input, int x, int y);
 
+/// The same on a device; with Vulkan.
+PixelReport pixelWeightsVulkan(const MethodInput& input, int x, int y);
+
 }  // namespace edgewise

@@ -103,6 +103,16 @@ class VulkanStages : public CpuStages {
         }
     }
 
+    WeightTile weights(NsaaFrame& frame, const VisibleMap& map, const OwnerClasses& classes,
+                       const PixelBox& box) override {
+        PassGraph graph(device_);
+        std::optional<WeightEntries> entries;
+        if (!why_not_weighed_) entries = weights_.addTo(graph, {map, classes, box, frame.offset()});
+        if (!entries) return CpuStages::weights(frame, map, classes, box);
+        graph.run({entries->offsets, entries->owners, entries->weights});
+        return readBack(graph, *entries, box);
+    }
+
     void report(MethodResult& result) const {
         result.counts["device_leaves"] = report_.leaves;
         result.counts["cells_handed_back"] = report_.handed;
@@ -337,6 +347,12 @@ class VulkanStages : public CpuStages {
 };
 
 }  // namespace
+
+PixelReport pixelWeightsVulkan(const MethodInput& input, int x, int y) {
+    NsaaFrame frame(input);
+    VulkanStages stages(frame);
+    return frame.report(stages, x, y);
+}
 
 MethodResult runNsaaVulkan(const MethodSpec&, const MethodInput& input) {
     NsaaFrame frame(input);

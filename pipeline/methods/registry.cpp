@@ -6,8 +6,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <system_error>
 
-#include "pipeline/error.h"
+#include "pipeline/device_error.h"
 
 namespace edgewise {
 namespace {
@@ -163,6 +164,23 @@ DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options
     return decideDevice(choice, requireMethod(spec.typed, spec.name).run_vulkan != nullptr);
 }
 
+MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input,
+                         bool asked) {
+    std::string why;
+    try {
+        return entry.run_vulkan(spec, input);
+    } catch (const DeviceError& error) {
+        if (asked) throw;
+        why = error.what();
+    } catch (const std::system_error& error) {  // what Vulkan's own calls throw
+        if (asked) throw DeviceError(error.what());
+        why = error.what();
+    }
+    MethodResult result = entry.run(spec, input);
+    result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", entry.name, why));
+    return result;
+}
+
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     if (!spec.composed.empty())
@@ -170,9 +188,10 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
-    arena.execute([&] { result = (decision.vulkan ? entry.run_vulkan : entry.run)(spec, input); });
     const bool asked =
         input.options.device == DeviceChoice::kVulkan || spec.parameter("device", "auto") == "vulkan";
+    arena.execute(
+        [&] { result = decision.vulkan ? runOnDevice(entry, spec, input, asked) : entry.run(spec, input); });
     if (asked && !decision.vulkan)
         result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", spec.name, decision.why));
     return result;

@@ -7,6 +7,11 @@ namespace edgewise {
 
 const std::vector<MethodEntry>& methodRegistry();
 
+/// The entry's Vulkan form. Where the device fails and nobody `asked` for it by name, the CPU's form and a
+/// note.
+MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input,
+                         bool asked);
+
 MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
 MethodResult runMsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runMsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/error.h"
+#include "pipeline/device_error.h"
 
 namespace edgewise::vulkan {
 namespace {
@@ -29,7 +29,7 @@ MemoryType memoryTypeFor(const Device& device, const vk::MemoryRequirements& nee
         if (const auto type = device.memoryType(needs.memoryTypeBits, wanted))
             return {*type, static_cast<bool>(extra & MemoryBit::eHostCached)};
     }
-    throw FailureError("device vulkan", "it has no memory that the host can see");
+    throw DeviceError("it has no memory that the host can see");
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ Buffer::Buffer(const Device& device, const std::string& name, std::size_t bytes)
 Buffer::Buffer(const Device& device, const std::string& name, std::size_t bytes, Place place)
     : device_(&device), bytes_(std::max<std::size_t>(bytes, 1)) {
     const auto fail = [&](const std::string& why) {
-        throw FailureError("device vulkan", fmt::format("{} of {} MiB: {}", name, (bytes_ >> 20) + 1, why));
+        throw DeviceError(fmt::format("{} of {} MiB: {}", name, (bytes_ >> 20) + 1, why));
     };
     if (bytes_ > device.traits().max_storage_bytes)
         fail(fmt::format("{} binds {} MiB at most", device.traits().name,

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "pipeline/error.h"
+#include "pipeline/device_error.h"
 
 namespace edgewise::vulkan {
 namespace {
@@ -177,7 +177,7 @@ Device::Device() {
     try {
         instance_.emplace(makeInstance(context_, validated_));
     } catch (const vk::SystemError& error) {
-        throw FailureError("device vulkan", fmt::format("there is no Vulkan driver ({})", error.what()));
+        throw DeviceError(fmt::format("there is no Vulkan driver ({})", error.what()));
     }
     if (validated_) messenger_.emplace(*instance_, messengerInfo(messages_));
     std::string why = "this machine has none with Vulkan 1.2";
@@ -190,7 +190,7 @@ Device::Device() {
         physical_.emplace(std::move(device));
         break;
     }
-    if (!physical_) throw FailureError("device vulkan", why);
+    if (!physical_) throw DeviceError(why);
     memory_ = physical_->getMemoryProperties();
     device_.emplace(openDevice(*physical_, traits_));
     const std::uint32_t family = queueFamilyOf(*physical_).value();
@@ -213,9 +213,9 @@ void Device::run(const vk::raii::CommandBuffer& commands) const {
     try {
         queue_->submit(vk::SubmitInfo({}, {}, list), *done);
         if (device_->waitForFences(*done, true, UINT64_MAX) != vk::Result::eSuccess)
-            throw FailureError("device vulkan", "the device did not finish");
+            throw DeviceError("the device did not finish");
     } catch (const vk::DeviceLostError&) {
-        throw FailureError("device vulkan", fmt::format("{} was lost", traits_.name));
+        throw DeviceError(fmt::format("{} was lost", traits_.name));
     }
 }
 

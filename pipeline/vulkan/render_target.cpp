@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "pipeline/error.h"
+#include "pipeline/device_error.h"
 
 namespace edgewise::vulkan {
 namespace {
@@ -40,8 +40,8 @@ vk::Extent2D checkedSize(const Device& device, const std::string& name, std::uin
                          std::uint32_t height) {
     const std::uint32_t most = device.traits().max_target_px;
     if (width > most || height > most)
-        throw FailureError("device vulkan", fmt::format("{} is {} x {} pixels; {} has {} a side at most",
-                                                        name, width, height, device.traits().name, most));
+        throw DeviceError(fmt::format("{} is {} x {} pixels; {} has {} a side at most", name, width, height,
+                                      device.traits().name, most));
     return {width, height};
 }
 
@@ -74,12 +74,11 @@ Image::Image(const Device& device, const std::string& name, vk::Format format, v
                                                   vk::ImageTiling::eOptimal, usage)) {
     const vk::MemoryRequirements needs = image_.getMemoryRequirements();
     const auto type = device.memoryType(needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    if (!type) throw FailureError("device vulkan", "it has no memory for images");
+    if (!type) throw DeviceError("it has no memory for images");
     try {
         memory_.emplace(device.handle(), vk::MemoryAllocateInfo(needs.size, *type));
     } catch (const vk::SystemError& error) {
-        throw FailureError("device vulkan",
-                           fmt::format("{} of {} MiB: {}", name, (needs.size >> 20) + 1, error.what()));
+        throw DeviceError(fmt::format("{} of {} MiB: {}", name, (needs.size >> 20) + 1, error.what()));
     }
     image_.bindMemory(**memory_, 0);
     const vk::ImageSubresourceRange whole(aspect, 0, 1, 0, 1);

@@ -49,6 +49,19 @@ TEST(Weights, SumToOne) {
               2.0 * additions * 0x1p-53 * magnitude);  // a rounding a weight, one an addition
 }
 
+TEST(Weights, OfADeviceAreTheSame) {
+#ifndef EDGEWISE_HAS_VULKAN
+    GTEST_SKIP() << "this build has no Vulkan";
+#endif
+    const Arguments pixel{"--pixel", "32,50"};
+    for (const char* precision : {"fp64", "fp32"}) {
+        Arguments device = pixel, host = pixel;
+        device.insert(device.end(), {"--device", "vulkan", "--precision", precision});
+        host.insert(host.end(), {"--device", "cpu", "--precision", precision});
+        EXPECT_EQ(weightsOf(device), weightsOf(host)) << precision;
+    }
+}
+
 TEST(Weights, EmptySkyIsAllBackground) {
     const auto json = weightsOf({"--pixel", "0,0"});
     EXPECT_EQ(json.at("weights").size(), 0u);

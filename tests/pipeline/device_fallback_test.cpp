@@ -1,0 +1,62 @@
+// A device that fails in the middle: the CPU goes on where nobody asked for the device by name.
+#include <gtest/gtest.h>
+
+#include <system_error>
+
+#include "pipeline/device_error.h"
+#include "pipeline/methods/registry.h"
+#include "tests/pipeline/shipped_picture.h"
+
+namespace edgewise {
+namespace {
+
+[[noreturn]] MethodResult outOfMemory(const MethodSpec&, const MethodInput&) {
+    throw DeviceError("sums of 97 MiB: ErrorOutOfDeviceMemory");
+}
+[[noreturn]] MethodResult lost(const MethodSpec&, const MethodInput&) {
+    throw std::system_error(std::make_error_code(std::errc::io_error), "vkQueueSubmit");
+}
+[[noreturn]] MethodResult wrongFile(const MethodSpec&, const MethodInput&) {
+    throw InputError("scene.glb", "no triangles");
+}
+MethodResult onCpu(const MethodSpec&, const MethodInput&) {
+    MethodResult result;
+    result.device = "cpu";
+    return result;
+}
+
+class DeviceFallback : public testing::Test {
+  protected:
+    MethodResult run(MethodResult (*on_device)(const MethodSpec&, const MethodInput&), bool asked) const {
+        const MethodEntry entry{
+            .name = "fails", .summary = "", .choices = {}, .run = onCpu, .run_vulkan = on_device};
+        Progress progress;
+        const Prefilter filter = makePrefilter("box", {}, {});
+        const RenderOptions options;
+        return runOnDevice(entry, {},
+                           {picture.scene, picture.camera, picture.film, filter, options, progress}, asked);
+    }
+    const test::ShippedPicture picture = test::shippedPicture("piercing", 4);
+};
+
+TEST_F(DeviceFallback, GoesOnWithTheCpuAndSaysWhy) {
+    for (const auto& [fails, why] :
+         {std::pair(outOfMemory, "ErrorOutOfDeviceMemory"), std::pair(lost, "vkQueueSubmit")}) {
+        const MethodResult result = run(fails, false);
+        EXPECT_EQ(result.device, "cpu");
+        ASSERT_EQ(result.notes.size(), 1u);
+        EXPECT_NE(result.notes[0].find(why), std::string::npos) << result.notes[0];
+    }
+}
+
+TEST_F(DeviceFallback, FailsWhereTheDeviceWasAskedFor) {
+    EXPECT_THROW(run(outOfMemory, true), DeviceError);
+    EXPECT_THROW(run(lost, true), DeviceError);
+}
+
+TEST_F(DeviceFallback, ErrorsOfTheInputAreNotTheDevices) {
+    EXPECT_THROW(run(wrongFile, false), InputError);
+}
+
+}  // namespace
+}  // namespace edgewise
