@@ -52,26 +52,47 @@ struct Answer {
     Owner owner = kBackground;
 };
 
-/// By the nearest wall whose offset has the sign `way`.
-Answer nearestWall(const std::vector<Wall>& walls, const QuadPoint& p, int way) {
-    const double y = static_cast<double>(p.y);
+bool isBehind(const Offset& a, const Offset& b) {
+    return a.value - b.value > a.doubt + b.doubt;
+}
+
+/// Walls that are met together.
+struct Meeting {
+    std::optional<Offset> where;
     Surplus met;
-    std::optional<Offset> nearest;
+    bool doubtful = false;  ///< the point may be on one of them
+};
+
+/// The nearest walls whose offset has the sign `way`, behind what was `passed`.
+Meeting nextMeeting(const std::vector<Wall>& walls, const QuadPoint& p, int way,
+                    const std::optional<Offset>& passed) {
+    const double y = static_cast<double>(p.y);
+    Meeting next;
     for (const Wall& w : walls) {
         if (w.low.y > y || w.high.y < y || !(w.a.y <= p.y && p.y < w.b.y)) continue;
         Offset offset = offsetAt(w, p);
-        if (quadAbs(offset.value) <= offset.doubt) return {Sought::kDoubtful};
+        if (quadAbs(offset.value) <= offset.doubt) next.doubtful = true;
         offset.value *= way;
-        if (offset.value < 0) continue;
-        const QuadReal behind = nearest ? offset.value - nearest->value : QuadReal(0);
-        const QuadReal doubt = nearest ? offset.doubt + nearest->doubt : QuadReal(0);
-        if (nearest && behind > doubt) continue;
-        if (!nearest || behind < -doubt) met.clear(), nearest = offset;
-        met.step(w.left, w.right);
+        if (offset.value < 0 || (passed && !isBehind(offset, *passed))) continue;
+        if (next.where && isBehind(offset, *next.where)) continue;
+        if (!next.where || isBehind(*next.where, offset)) next.met.clear(), next.where = offset;
+        next.met.step(w.left, w.right);
     }
-    if (!nearest) return {Sought::kNothing};
-    const auto owner = met.only(-way);
-    return owner ? Answer{Sought::kFound, *owner} : Answer{Sought::kDoubtful};
+    return next;
+}
+
+/// By the nearest walls that change the owner: a corner that the way only touches leaves it as it was.
+Answer nearestWall(const std::vector<Wall>& walls, const QuadPoint& p, int way) {
+    std::optional<Offset> passed;
+    for (;;) {
+        const Meeting next = nextMeeting(walls, p, way, passed);
+        if (next.doubtful) return {Sought::kDoubtful};
+        if (!next.where) return {Sought::kNothing};
+        passed = next.where;
+        if (next.met.empty()) continue;
+        const auto owner = next.met.only(-way);
+        return owner ? Answer{Sought::kFound, *owner} : Answer{Sought::kDoubtful};
+    }
 }
 
 /// All walls no more than `reach_px` behind the nearest whose offset has the sign `way`.
