@@ -8,30 +8,19 @@
 #include <cmath>
 
 #include "analytic/row_owners.h"
+#include "analytic/segment_tiles.h"
 
 namespace edgewise {
 namespace {
 
-/// PixelWeights wants every segment within 2^-30 px of a support.
-constexpr double kReachSlackPx = 0x1p-29;
+using f64::kReachSlackPx;
 
 glm::dvec2 rounded(const FinePoint& p) {
     return p.grid + p.rest;
 }
 
-/// The part of a -> b within [y0, y1] spans these abscissae; empty: x0 > x1. Widened by what rounding may
-/// lose.
-std::pair<double, double> spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, double y1) {
-    if (a.y > y1 || b.y < y0) return {1.0, 0.0};
-    double xa = a.x, xb = b.x;
-    const double height = b.y - a.y;
-    if (height > 0.0) {
-        const double slope = (b.x - a.x) / height;
-        if (a.y < y0) xa = a.x + slope * (y0 - a.y);
-        if (b.y > y1) xb = a.x + slope * (y1 - a.y);
-    }
-    const double low = std::min(a.x, b.x), high = std::max(a.x, b.x);
-    return {std::max(low, std::min(xa, xb)) - kGridPx, std::min(high, std::max(xa, xb)) + kGridPx};
+f64::Span spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, double y1) {
+    return f64::spanWithin(a.x, a.y, b.x, b.y, y0, y1);
 }
 
 /// The lattice of weight tiles over a box of pixels.
@@ -47,13 +36,6 @@ struct TileLattice {
         const int x = box.x0 + column * side_px, y = box.y0 + row * side_px;
         return {x, y, std::min(x + side_px, box.x1), std::min(y + side_px, box.y1)};
     }
-    /// Tiles whose samples lie within [low, high], clamped; first > last: none.
-    std::pair<int, int> range(double low, double high, int origin, int count) const {
-        const double first = std::floor((low - 0.5 - origin) / side_px);
-        const double last = std::floor((high - 0.5 - origin) / side_px);
-        if (last < 0.0 || first >= count) return {0, -1};
-        return {static_cast<int>(std::max(0.0, first)), static_cast<int>(std::min(count - 1.0, last))};
-    }
 };
 
 template <class Visit>
@@ -61,11 +43,14 @@ void forTilesOf(const VisibleSegment& s, const TileLattice& lattice, glm::dvec2 
                 Visit&& visit) {
     const glm::dvec2 a = rounded(s.a) - offset_px, b = rounded(s.b) - offset_px;
     const double reach = radius + kReachSlackPx;
-    const auto [r0, r1] = lattice.range(a.y - reach, b.y + reach, lattice.box.y0, lattice.rows);
+    const auto [r0, r1] =
+        f64::tileSpan(a.y - reach, b.y + reach, lattice.box.y0, lattice.side_px, lattice.rows);
     for (int row = r0; row <= r1; ++row) {
         const double y0 = lattice.box.y0 + row * lattice.side_px;
-        const auto [x0, x1] = spanWithin(a, b, y0 - reach, y0 + lattice.side_px + reach);
-        const auto [c0, c1] = lattice.range(x0 - reach, x1 + reach, lattice.box.x0, lattice.columns);
+        const f64::Span x = spanWithin(a, b, y0 - reach, y0 + lattice.side_px + reach);
+        if (x.low > x.high) continue;
+        const auto [c0, c1] =
+            f64::tileSpan(x.low - reach, x.high + reach, lattice.box.x0, lattice.side_px, lattice.columns);
         for (int column = c0; column <= c1; ++column)
             visit(static_cast<std::size_t>(row) * lattice.columns + static_cast<std::size_t>(column));
     }

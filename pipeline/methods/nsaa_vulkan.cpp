@@ -93,14 +93,14 @@ class VulkanStages : public CpuStages {
     void render(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
                 const PixelBox& band) override {
         if (why_not_shaded_) return CpuStages::render(frame, map, owners, band);
-        for (int y = band.y0; y < band.y1; y += kStripRows) {
-            checkCancelled(frame.in.progress);
-            const PixelBox strip{band.x0, y, band.x1, std::min(y + kStripRows, band.y1)};
-            if (why_not_weighed_)
-                weighStripOnHost(frame, map, owners, strip);
-            else
-                weighStrip(frame, map, owners, strip);
-        }
+        const auto weigh_on_host = [&](const PixelBox& strip) {
+            weighStripOnHost(frame, map, owners, strip);
+        };
+        if (why_not_weighed_) return forStrips(frame, band, weigh_on_host);
+        std::shared_ptr<const WeightMap> on_device;
+        if (auto all = WeightMap::ofAll(device_, map, owners.alike.classes))
+            on_device = std::make_shared<const WeightMap>(std::move(*all));
+        weighArea(frame, {map, owners.alike.classes, band, frame.offset(), on_device}, owners);
     }
 
     WeightTile weights(NsaaFrame& frame, const VisibleMap& map, const OwnerClasses& classes,
@@ -208,15 +208,39 @@ class VulkanStages : public CpuStages {
         shadeAndBlend(frame, stacks, strip, graph, entries, at);
     }
 
+    template <class Weigh>
+    static void forStrips(const NsaaFrame& frame, const PixelBox& area, Weigh&& weigh) {
+        for (int y = area.y0; y < area.y1; y += kStripRows) {
+            checkCancelled(frame.in.progress);
+            weigh(PixelBox{area.x0, y, area.x1, std::min(y + kStripRows, area.y1)});
+        }
+    }
+
     /// Halves what is too large for the device at once; a single tile is the host's.
-    void weighStrip(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
+    void weighArea(NsaaFrame& frame, const WeightInput& input, const BandOwners& owners) {
+        const PixelBox& area = input.area;
+        if (const auto lists = weights_.listsOf(input)) {
+            frame.bookSeconds("weights", frame.watch.lap());
+            return forStrips(frame, area,
+                             [&](const PixelBox& strip) { weighStrip(frame, *lists, owners, strip); });
+        }
+        if (isSingleTile(area)) return weighStripOnHost(frame, input.map, owners, area);
+        for (const PixelBox& half : halves(area))
+            weighArea(frame, {input.map, input.classes, half, input.offset_px, input.on_device}, owners);
+    }
+
+    static bool isSingleTile(const PixelBox& box) {
+        return std::max(box.width(), box.height()) <= kWeightTilePx;
+    }
+
+    /// Likewise.
+    void weighStrip(NsaaFrame& frame, const WeightLists& lists, const BandOwners& owners,
                     const PixelBox& strip) {
         PassGraph graph(device_);
-        const auto entries = weights_.addTo(graph, {map, owners.alike.classes, strip, frame.offset()});
+        const auto entries = weights_.addTo(graph, lists, strip);
         if (!entries) {
-            if (std::max(strip.width(), strip.height()) <= kWeightTilePx)
-                return weighStripOnHost(frame, map, owners, strip);
-            for (const PixelBox& half : halves(strip)) weighStrip(frame, map, owners, half);
+            if (isSingleTile(strip)) return weighStripOnHost(frame, lists.input.map, owners, strip);
+            for (const PixelBox& half : halves(strip)) weighStrip(frame, lists, owners, half);
             return;
         }
         shadeAndBlend(frame, owners.alike.stacks, strip, graph, *entries, std::nullopt);

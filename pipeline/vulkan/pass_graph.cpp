@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <utility>
 
 namespace edgewise::vulkan {
 namespace {
@@ -44,6 +45,13 @@ const Buffer& PassGraph::operator[](Resource resource) const {
     const Node& node = nodes_[resource];
     assert(node.external || node.own);
     return node.external ? *node.external : *node.own;
+}
+
+Buffer PassGraph::take(Resource resource) {
+    assert(nodes_[resource].own);
+    Buffer taken = std::move(*nodes_[resource].own);
+    nodes_[resource].own.reset();
+    return taken;
 }
 
 /// Backwards: a pass is needed when it writes what is needed; then what it reads and writes is needed too.

@@ -60,6 +60,9 @@ class PassGraph {
     /// Of a resource that the last run made or was given.
     const Buffer& operator[](Resource resource) const;
 
+    /// The buffer leaves the graph, which does without it from now on.
+    Buffer take(Resource resource);
+
     /// Of the last run, by pass.
     const std::vector<PassTime>& times() const { return times_; }
     /// Bytes of all buffers that the graph holds.

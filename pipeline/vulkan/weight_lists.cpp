@@ -1,118 +1,226 @@
 #include "pipeline/vulkan/weight_lists.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "analytic/segment_tiles.h"
 
 namespace edgewise::vulkan {
 namespace {
 
-constexpr uint kUnused = 0xffffffffu;
+constexpr std::uint32_t kGroup = 64;
+constexpr std::uint32_t kMostGroups = 65535;
 
-GpuCarrierLine packed(const CarrierLine& l) {
-    return {l.origin.x, l.origin.y, l.nx_hi,  l.nx_lo,       l.ny_hi,      l.ny_lo,
-            l.c_hi,     l.c_lo,     l.length, l.direction.x, l.direction.y};
+/// Invocations that may share one count of turns.
+constexpr std::size_t kTogether = 16;
+
+/// Of a list's buffers: more is halved, whatever a binding may hold.
+constexpr std::size_t kMostListBytes = std::size_t{256} << 20;
+
+Groups rowsOf(std::size_t groups) {
+    const auto count = static_cast<std::uint32_t>(groups), row = std::min(count, kMostGroups);
+    return {row, row == 0 ? 0 : (count + row - 1) / row};
 }
 
-GpuSegment packed(const VisibleSegment& s, uint line) {
-    return {{s.a.grid.x, s.a.grid.y},
-            {s.a.rest.x, s.a.rest.y},
-            {s.b.grid.x, s.b.grid.y},
-            {s.b.rest.x, s.b.rest.y},
-            s.length,
-            line,
-            s.left,
-            s.right,
-            0};
+std::vector<uint> copyOf(const Buffer& buffer, std::size_t count) {
+    const auto items = buffer.read<uint>(count);
+    return {items.begin(), items.end()};
 }
 
-/// One tile's part, before it has its place.
-struct TilePart {
-    std::vector<GpuTileSegment> entries;
-    std::vector<uint> owners;
-};
-
-class TileParts {
-  public:
-    TileParts(const WeightInput& input, const WeightTiles& tiles)
-        : input_(input), tiles_(tiles), parts_(tiles.boxes.size()) {
-        tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t t) { fill(t); });
-    }
-    std::vector<TilePart>& all() { return parts_; }
-
-  private:
-    /// Entries hold owners at first, then their places.
-    void fill(std::size_t t) {
-        TilePart& part = parts_[t];
-        for (std::size_t k = tiles_.segments.offsets[t]; k < tiles_.segments.offsets[t + 1]; ++k) {
-            const uint id = tiles_.segments.ids[k];
-            const VisibleSegment& s = input_.map.segments[id];
-            const Owner left = input_.classes.of(s.left), right = input_.classes.of(s.right);
-            if (left == right) continue;  // no border between owners that are one
-            part.entries.push_back({id, left, right});
-            part.owners.push_back(left), part.owners.push_back(right);
-        }
-        std::sort(part.owners.begin(), part.owners.end());
-        part.owners.erase(std::unique(part.owners.begin(), part.owners.end()), part.owners.end());
-        const auto placeOf = [&](uint owner) {
-            return static_cast<uint>(std::lower_bound(part.owners.begin(), part.owners.end(), owner) -
-                                     part.owners.begin());
-        };
-        for (GpuTileSegment& entry : part.entries)
-            entry.left = placeOf(entry.left), entry.right = placeOf(entry.right);
-    }
-
-    const WeightInput& input_;
-    const WeightTiles& tiles_;
-    std::vector<TilePart> parts_;
-};
-
-/// Numbers what is used in the order of its first use.
-class Renumbering {
-  public:
-    explicit Renumbering(std::size_t count) : number_(count, kUnused) {}
-    template <class Add>
-    uint of(std::size_t old, uint next, Add&& add) {
-        if (number_[old] == kUnused) number_[old] = next, add();
-        return number_[old];
-    }
-
-  private:
-    std::vector<uint> number_;
-};
+std::size_t longestOf(const std::vector<uint>& begin) {
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < begin.size(); ++i)
+        longest = std::max<std::size_t>(longest, begin[i] - begin[i - 1]);
+    return longest;
+}
 
 }  // namespace
 
-WeightLists::WeightLists(const WeightInput& input, double radius)
-    : tiles(gatherSegments(input.map, input.box, input.offset_px, radius, kTilePx)) {
-    TileParts parts(input, tiles);
-    Renumbering segment_number(input.map.segments.size()), line_number(input.map.lines.size());
-    offsets.push_back(0), slots.push_back(0);
-    for (TilePart& part : parts.all()) {
-        for (GpuTileSegment& entry : part.entries) {
-            const VisibleSegment& s = input.map.segments[entry.segment];
-            entry.segment = segment_number.of(entry.segment, static_cast<uint>(segments.size()), [&] {
-                const uint line = line_number.of(s.line, static_cast<uint>(lines.size()),
-                                                 [&] { lines.push_back(packed(input.map.lines[s.line])); });
-                segments.push_back(packed(s, line));
-            });
-        }
-        longest = std::max(longest, part.entries.size());
-        entries.insert(entries.end(), part.entries.begin(), part.entries.end());
-        owners.insert(owners.end(), part.owners.begin(), part.owners.end());
-        offsets.push_back(static_cast<uint>(entries.size()));
-        slots.push_back(static_cast<uint>(owners.size()));
-        part = {};
+/// One area. The lists know their sizes in two steps, so each is a graph of its own.
+struct WeightListPasses::Job {
+    const WeightMap& map;
+    WeightListPush push;
+    Resource segments = 0, histogram = 0, offsets = 0, entries = 0, sides = 0, firsts = 0, places = 0,
+             slots = 0, owners = 0;
+    std::optional<Buffer> counted, offset_buffer;
+    std::vector<PassTime> times;
+
+    Job(const WeightInput& in, const WeightMap& on_device, double radius)
+        : map(on_device),
+          push{in.offset_px.x,
+               in.offset_px.y,
+               radius + f64::kReachSlackPx,
+               in.area.x0,
+               in.area.y0,
+               static_cast<uint>((in.area.width() + kTilePx - 1) / kTilePx),
+               static_cast<uint>((in.area.height() + kTilePx - 1) / kTilePx),
+               static_cast<uint>(on_device.size()),
+               0} {}
+
+    std::size_t tiles() const { return std::size_t{push.columns} * push.rows; }
+
+    void dispatch(const PassContext& pass, ComputePass& shader, const std::vector<BufferRange>& buffers,
+                  std::size_t groups) const {
+        WeightListPush at = push;
+        at.group_row = rowsOf(groups).x;
+        shader.dispatch(pass.commands, buffers, rowsOf(groups), at);
     }
-    const VisibleMap& map = input.map;
-    const int first_row = input.box.y0 + static_cast<int>(input.offset_px.y) - map.row_begin;
-    row_offsets.push_back(0);
-    for (int row = first_row; row < first_row + input.box.height(); ++row) {
-        for (std::size_t i = map.row_offset[static_cast<std::size_t>(row)];
-             i < map.row_offset[static_cast<std::size_t>(row) + 1]; ++i)
-            rows.push_back({map.rows[i].x_px, input.classes.of(map.rows[i].owner), 0});
-        row_offsets.push_back(static_cast<uint>(rows.size()));
+
+    /// By binding; `segments` stands where there is nothing.
+    std::vector<BufferRange> bindings(const PassContext& pass,
+                                      std::initializer_list<std::pair<int, Resource>> bound) const {
+        std::vector<BufferRange> all(kListBindings, BufferRange(pass[segments]));
+        for (const auto& [binding, resource] : bound) all[static_cast<std::size_t>(binding)] = pass[resource];
+        return all;
     }
+};
+
+WeightListPasses::WeightListPasses(const Device& device, double radius)
+    : device_(device),
+      radius_(radius),
+      count_(device, "weights_reach.comp", kListBindings, sizeof(WeightListPush), {0}),
+      fill_(device, "weights_reach.comp", kListBindings, sizeof(WeightListPush), {1}),
+      firsts_(device, "weights_firsts.comp", kListBindings, sizeof(WeightListPush)),
+      places_(device, "weights_places.comp", kListBindings, sizeof(WeightListPush)),
+      scan_(device),
+      order_(device) {}
+
+void WeightListPasses::addCount(PassGraph& graph, const Job& job) {
+    graph.add("weights clear",
+              {.reads = {}, .writes = {job.histogram}, .record = [&job](const PassContext& pass) {
+                   pass.commands.fillBuffer(pass[job.histogram].handle(), 0, VK_WHOLE_SIZE, 0);
+               }});
+    graph.add("weights count", {.reads = {job.segments, job.histogram},
+                                .writes = {job.histogram},
+                                .record = [&job, this](const PassContext& pass) {
+                                    job.dispatch(pass, count_,
+                                                 job.bindings(pass, {{kListHistogram, job.histogram}}),
+                                                 Groups::covering(job.map.size(), kGroup).x);
+                                }});
+}
+
+void WeightListPasses::addFill(PassGraph& graph, const Job& job) {
+    graph.add("weights list", {.reads = {job.segments, job.histogram, job.offsets},
+                               .writes = {job.histogram, job.entries, job.sides},
+                               .record = [&job, this](const PassContext& pass) {
+                                   job.dispatch(pass, fill_,
+                                                job.bindings(pass, {{kListHistogram, job.histogram},
+                                                                    {kListOffsets, job.offsets},
+                                                                    {kListEntries, job.entries},
+                                                                    {kListSides, job.sides}}),
+                                                Groups::covering(job.map.size(), kGroup).x);
+                               }});
+    order_.addSort(graph, "weights", {job.offsets, job.sides}, job.tiles());
+    graph.add("weights firsts", {.reads = {job.offsets, job.sides},
+                                 .writes = {job.firsts},
+                                 .record = [&job, this](const PassContext& pass) {
+                                     job.dispatch(pass, firsts_,
+                                                  job.bindings(pass, {{kListOffsets, job.offsets},
+                                                                      {kListSides, job.sides},
+                                                                      {kListFirsts, job.firsts}}),
+                                                  job.tiles());
+                                 }});
+}
+
+void WeightListPasses::addPlaces(PassGraph& graph, const Job& job) {
+    // the host must have seen the sums before the owners' buffer is made
+    graph.add("weights owners room",
+              {.reads = {job.places}, .writes = {job.owners}, .host = [](const PassGraph&) {}});
+    graph.add("weights places", {.reads = {job.offsets, job.sides, job.places, job.entries},
+                                 .writes = {job.slots, job.owners, job.entries},
+                                 .record = [&job, this](const PassContext& pass) {
+                                     job.dispatch(pass, places_,
+                                                  job.bindings(pass, {{kListOffsets, job.offsets},
+                                                                      {kListSides, job.sides},
+                                                                      {kListPlaces, job.places},
+                                                                      {kListEntries, job.entries},
+                                                                      {kListSlots, job.slots},
+                                                                      {kListOwners, job.owners}}),
+                                                  job.tiles());
+                                 }});
+}
+
+/// Whether one segment's tiles fit the turns of loops: of each row of them it sees what lies within reach,
+/// and one at either end; a row's neighbours within reach see that again.
+bool WeightListPasses::reachFits(const Job& job) const {
+    const double reach_tiles = std::ceil(2.0 * job.push.reach / kTilePx);
+    const double row = reach_tiles + 4.0, most = job.push.rows * row + job.push.columns * (reach_tiles + 2.0);
+    return most * kTogether <= static_cast<double>(grantedTurns(device_.traits()));
+}
+
+/// Sides sort with twice their room; a workgroup looks each entry's two owners up, as many entries at a time
+/// as it has invocations.
+bool WeightListPasses::listsFit(const std::vector<uint>& begin) const {
+    const std::size_t most = std::min(device_.traits().max_storage_bytes, kMostListBytes);
+    if (begin.back() > most / (2 * sizeof(uint))) return false;
+    const std::size_t longest = longestOf(begin), search = std::bit_width(longest) + 1;
+    return (longest / kGroup + 1) * (2 + search) <= grantedTurns(device_.traits());
+}
+
+/// How many sides every tile has, and the sums before it.
+void WeightListPasses::count(Job& job) {
+    PassGraph graph(device_);
+    job.segments = graph.input("segments", job.map.segments());
+    job.histogram = graph.buffer("tile histogram", [tiles = job.tiles()] { return tiles * sizeof(uint); });
+    addCount(graph, job);
+    job.offsets = scan_.addTo(graph, "weights", job.histogram, job.tiles());
+    graph.run({job.offsets});
+    job.counted.emplace(graph.take(job.histogram));
+    job.offset_buffer.emplace(graph.take(job.offsets));
+    job.times = graph.times();
+}
+
+WeightLists WeightListPasses::list(Job& job, const WeightInput& input, const std::vector<uint>& begin) {
+    PassGraph graph(device_);
+    const std::size_t sides = begin.back();
+    const auto words = [](std::size_t count) { return [count] { return count * sizeof(uint); }; };
+    job.segments = graph.input("segments", job.map.segments());
+    job.histogram = graph.input("tile histogram", *job.counted);
+    job.offsets = graph.input("tile offsets", *job.offset_buffer);
+    job.entries = graph.buffer("tile segments", [=] { return sides / 2 * sizeof(GpuTileSegment); });
+    job.sides = graph.buffer("tile sides", words(2 * sides));
+    job.firsts = graph.buffer("first sides", words(sides));
+    job.slots = graph.buffer("tile slots", words(job.tiles() + 1));
+    addFill(graph, job);
+    job.places = scan_.addTo(graph, "weights places", job.firsts, sides);
+    job.owners = graph.buffer("tile owners", [&graph, sides, places = job.places] {
+        return entriesOf(graph, places, sides) * sizeof(uint);
+    });
+    addPlaces(graph, job);
+    graph.run({job.entries, job.slots, job.owners});
+    job.times.insert(job.times.end(), graph.times().begin(), graph.times().end());
+    WeightLists lists{input,
+                      {},
+                      std::move(*job.offset_buffer),
+                      graph.take(job.entries),
+                      graph.take(job.slots),
+                      graph.take(job.owners),
+                      begin,
+                      {},
+                      std::move(job.times)};
+    for (uint& entry : lists.entry_begin) entry /= 2;
+    lists.slot_begin = copyOf(lists.slots, job.tiles() + 1);
+    return lists;
+}
+
+std::optional<WeightLists> WeightListPasses::make(const WeightInput& input) {
+    for (ComputePass* pass : {&count_, &fill_, &firsts_, &places_}) pass->forgetSets();
+    std::shared_ptr<const WeightMap> map = input.on_device;
+    if (!map) {
+        auto part =
+            WeightMap::around(device_, input.map, input.classes, input.area, input.offset_px, radius_);
+        if (!part) return std::nullopt;
+        map = std::make_shared<const WeightMap>(std::move(*part));
+    }
+    Job job(input, *map, radius_);
+    if (!reachFits(job)) return std::nullopt;
+    count(job);
+    const std::vector<uint> begin = copyOf(*job.offset_buffer, job.tiles() + 1);
+    if (!listsFit(begin)) return std::nullopt;
+    WeightLists lists = list(job, input, begin);
+    lists.map = std::move(map);
+    return lists;
 }
 
 }  // namespace edgewise::vulkan

@@ -1,10 +1,14 @@
-// What a box's tiles are made of: the segments within reach, and the owners on either side of them.
+// What the tiles of an area are made of, as lists on the device: the segments within reach, and the owners on
+// either side of them.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "pipeline/vulkan/id_lists.h"
 #include "pipeline/vulkan/layouts.h"
-#include "pipeline/vulkan/weights.h"
+#include "pipeline/vulkan/weight_map.h"
 
 namespace edgewise::vulkan {
 
@@ -12,19 +16,67 @@ namespace edgewise::vulkan {
 
 static_assert(sizeof(GpuCarrierLine) == sizeof(CarrierLine) && sizeof(GpuRowOwner) == 16);
 static_assert(sizeof(GpuPixelState) == 96);
+static_assert(sizeof(GpuTileSegment) == 12 && sizeof(WeightListPush) == 48);
 
+/// An area whose boxes are weighed.
+struct WeightInput {
+    const VisibleMap& map;
+    const OwnerClasses& classes;
+    PixelBox area;
+    glm::dvec2 offset_px{0.0};  ///< whole pixels
+    std::shared_ptr<const WeightMap>
+        on_device;  ///< all of the map; none: what the area sees of it is put there
+};
+
+/// Tiles of kTilePx, row by row from the area's corner. The input's map and classes outlive them.
 struct WeightLists {
-    WeightLists(const WeightInput& input, double radius);
+    WeightInput input;
+    std::shared_ptr<const WeightMap> map;
+    Buffer offsets;  ///< uint by tile, and the end: twice those into entries
+    Buffer entries;  ///< GpuTileSegment: ids of `map`, places among the tile's owners
+    Buffer slots;    ///< uint by tile, and the end: into owners
+    Buffer owners;   ///< ascending within a tile
+    std::vector<uint> entry_begin, slot_begin;  ///< by tile, and the end
+    std::vector<PassTime> times;
 
-    WeightTiles tiles;  ///< of kTilePx, with ids of the map's segments
-    std::vector<GpuSegment> segments;
-    std::vector<GpuCarrierLine> lines;
-    std::vector<uint> offsets, slots;  ///< by tile, and the end: into entries, into owners
-    std::vector<GpuTileSegment> entries;
-    std::vector<uint> owners;  ///< ascending within a tile
-    std::vector<uint> row_offsets;
-    std::vector<GpuRowOwner> rows;
-    std::size_t longest = 0;  ///< entries of a tile
+    std::size_t columns() const {
+        return static_cast<std::size_t>(input.area.width() + kTilePx - 1) / kTilePx;
+    }
+    /// The tile that begins at a pixel.
+    std::size_t tileAt(int x, int y) const {
+        return static_cast<std::size_t>((y - input.area.y0) / kTilePx) * columns() +
+               static_cast<std::size_t>((x - input.area.x0) / kTilePx);
+    }
+};
+
+/// Turns that loops may take, some left for what is not counted.
+inline std::size_t grantedTurns(const DeviceTraits& traits) {
+    return traits.loop_turns - 5000;
+}
+
+/// Makes lists: counts, prefix sums, entries; then each tile's owners sorted, and named once.
+class WeightListPasses {
+  public:
+    WeightListPasses(const Device& device, double radius);
+
+    /// nullopt where the area has more than the device is given at once: halve it.
+    std::optional<WeightLists> make(const WeightInput& input);
+
+  private:
+    struct Job;
+    bool reachFits(const Job& job) const;
+    bool listsFit(const std::vector<uint>& begin) const;
+    void count(Job& job);
+    WeightLists list(Job& job, const WeightInput& input, const std::vector<uint>& begin);
+    void addCount(PassGraph& graph, const Job& job);
+    void addFill(PassGraph& graph, const Job& job);
+    void addPlaces(PassGraph& graph, const Job& job);
+
+    const Device& device_;
+    const double radius_;
+    ComputePass count_, fill_, firsts_, places_;
+    Scan scan_;
+    ListOrder order_;
 };
 
 }  // namespace edgewise::vulkan

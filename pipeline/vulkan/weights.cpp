@@ -4,9 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-
-#include "pipeline/vulkan/id_lists.h"
-#include "pipeline/vulkan/weight_lists.h"
+#include <cassert>
 
 namespace edgewise::vulkan {
 namespace {
@@ -27,12 +25,6 @@ const char* shaderOf(Precision precision) {
     return precision == Precision::kFp64 ? "weights_fp64.comp" : "weights_fp32.comp";
 }
 
-/// Some are left for what is not counted. Samples of a tile share its list, so that invocations keep one
-/// pace.
-std::uint32_t mostTurns(const Device& device) {
-    return device.traits().loop_turns - 5000;
-}
-
 /// Between dispatches that read what the last has written.
 void waitFor(vk::PipelineStageFlags stage, vk::AccessFlags writes, const vk::raii::CommandBuffer& commands) {
     const vk::MemoryBarrier written(writes,
@@ -48,64 +40,112 @@ struct HandedPixel {
     std::vector<OwnerWeight> entries;
 };
 
+/// Ids of the map's segments, as the lists' entries from `begin` on name them.
+struct HandedSegments {
+    std::size_t begin = 0;
+    std::vector<std::uint32_t> ids;
+};
+
+/// The tiles of a box among those of the lists.
+struct BoxTiles {
+    BoxTiles(const WeightLists& lists, const PixelBox& box)
+        : columns(static_cast<std::size_t>((box.width() + kTilePx - 1) / kTilePx)),
+          rows(static_cast<std::size_t>((box.height() + kTilePx - 1) / kTilePx)),
+          first(lists.tileAt(box.x0, box.y0)),
+          list_columns(lists.columns()) {
+        sum_first.push_back(0);
+        for (std::size_t t = 0; t < columns * rows; ++t) {
+            const std::size_t at = listed(t);
+            longest = std::max<std::size_t>(longest, lists.entry_begin[at + 1] - lists.entry_begin[at]);
+            sum_first.push_back(sum_first.back() + lists.slot_begin[at + 1] - lists.slot_begin[at]);
+        }
+    }
+    std::size_t count() const { return columns * rows; }
+    std::size_t listed(std::size_t tile) const {
+        return first + tile / columns * list_columns + tile % columns;
+    }
+
+    std::size_t columns, rows, first, list_columns;
+    std::size_t longest = 0;      ///< entries of a tile
+    std::vector<uint> sum_first;  ///< by tile: owners before it; and the end
+};
+
 /// One box.
 struct WeightPasses::Job {
-    Job(const Device& device, const WeightInput& in, double radius)
-        : input(in),
-          lists(in, radius),
-          segments(bufferOf(device, "segments", lists.segments)),
-          lines(bufferOf(device, "lines", lists.lines)),
-          offsets(bufferOf(device, "tile offsets", lists.offsets)),
-          entries(bufferOf(device, "tile segments", lists.entries)),
-          slots(bufferOf(device, "tile slots", lists.slots)),
-          owners(bufferOf(device, "tile owners", lists.owners)),
-          row_offsets(bufferOf(device, "row offsets", lists.row_offsets)),
-          rows(bufferOf(device, "rows", lists.rows)) {}
+    Job(const Device& device, const WeightLists& of, const PixelBox& pixels_of)
+        : lists(of),
+          box(pixels_of),
+          tiles(of, pixels_of),
+          sum_first(bufferOf(device, "owners before", tiles.sum_first)) {
+        assert((box.x0 - of.input.area.x0) % kTilePx == 0 && (box.y0 - of.input.area.y0) % kTilePx == 0);
+    }
 
-    std::size_t tiles() const { return lists.tiles.boxes.size(); }
-    std::size_t pixels() const { return static_cast<std::size_t>(input.box.width()) * input.box.height(); }
-    std::size_t sumBytes() const { return lists.owners.size() * kTilePixels * sizeof(FixedWeight); }
+    std::size_t pixels() const { return static_cast<std::size_t>(box.width()) * box.height(); }
+    std::size_t sumBytes() const { return tiles.sum_first.back() * kTilePixels * sizeof(FixedWeight); }
     Groups groups() const {
-        const auto count = static_cast<std::uint32_t>(tiles()), row = std::min(count, kMostGroups);
+        const auto count = static_cast<std::uint32_t>(tiles.count()), row = std::min(count, kMostGroups);
         return {row, (count + row - 1) / row};
     }
     WeightPush push(const LaneKernel& kernel) const {
-        const PixelBox& box = input.box;
         return {kernel.radius,
                 kernel.inner_radius,
-                input.offset_px.x,
-                input.offset_px.y,
+                lists.input.offset_px.x,
+                lists.input.offset_px.y,
                 box.x0,
                 box.y0,
                 box.width(),
                 box.height(),
-                static_cast<uint>(tiles()),
-                static_cast<uint>((box.width() + kTilePx - 1) / kTilePx),
+                static_cast<uint>(tiles.count()),
+                static_cast<uint>(tiles.columns),
                 0,
                 0,
-                box.y0 + static_cast<int>(input.offset_px.y),
-                groups().x};
+                lists.map->rowBegin(),
+                groups().x,
+                static_cast<uint>(tiles.first),
+                static_cast<uint>(tiles.list_columns)};
     }
 
-    const WeightInput input;
-    const WeightLists lists;
-    const Buffer segments, lines, offsets, entries, slots, owners, row_offsets, rows;
+    const WeightLists& lists;
+    const PixelBox box;
+    const BoxTiles tiles;
+    const Buffer sum_first;
     Resource sums = 0, states = 0, kinds = 0, counts = 0, status = 0, handed_list = 0, out_offsets = 0,
              out_owners = 0, out_weights = 0;
     std::vector<HandedPixel> handed;
 
-    std::vector<OwnerWeight> makeOnHost(std::size_t pixel, WeightWorker& worker) const {
-        const PixelBox& box = input.box;
+    std::size_t listedTileOf(std::size_t pixel) const {
         const auto width = static_cast<std::size_t>(box.width());
-        const std::size_t x = pixel % width, y = pixel / width;
-        const std::size_t columns = (width + kTilePx - 1) / kTilePx, t = y / kTilePx * columns + x / kTilePx;
-        const IdLists& segments_of = lists.tiles.segments;
+        return lists.tileAt(box.x0 + static_cast<int>(pixel % width),
+                            box.y0 + static_cast<int>(pixel / width));
+    }
+
+    /// The segments of all tiles from the first handed pixel's to the last one's: read at once.
+    HandedSegments segmentsOfHanded() const {
+        std::size_t first = lists.entry_begin.size(), last = 0;
+        for (const HandedPixel& pixel : handed) {
+            first = std::min(first, listedTileOf(pixel.pixel));
+            last = std::max(last, listedTileOf(pixel.pixel) + 1);
+        }
+        if (handed.empty()) return {};
+        const std::size_t begin = lists.entry_begin[first], count = lists.entry_begin[last] - begin;
+        HandedSegments segments{begin, {}};
+        for (const GpuTileSegment& entry :
+             lists.entries.read<GpuTileSegment>(count, begin * sizeof(GpuTileSegment)))
+            segments.ids.push_back(lists.map->segment(entry.segment));
+        return segments;
+    }
+
+    std::vector<OwnerWeight> makeOnHost(std::size_t pixel, const HandedSegments& segments,
+                                        WeightWorker& worker) const {
+        const auto width = static_cast<std::size_t>(box.width());
+        const std::size_t tile = listedTileOf(pixel), begin = lists.entry_begin[tile];
         const auto ids =
-            std::span(segments_of.ids)
-                .subspan(segments_of.offsets[t], segments_of.offsets[t + 1] - segments_of.offsets[t]);
-        const int left = box.x0 + static_cast<int>(x), top = box.y0 + static_cast<int>(y);
+            std::span(segments.ids).subspan(begin - segments.begin, lists.entry_begin[tile + 1] - begin);
+        const int left = box.x0 + static_cast<int>(pixel % width),
+                  top = box.y0 + static_cast<int>(pixel / width);
         WeightTile made;
-        worker.run(input.map, ids, input.classes, {left, top, left + 1, top + 1}, input.offset_px, made);
+        worker.run(lists.input.map, ids, lists.input.classes, {left, top, left + 1, top + 1},
+                   lists.input.offset_px, made);
         return made.entries;
     }
 
@@ -122,12 +162,13 @@ struct WeightPasses::Job {
     }
 
     /// What a shader binds; `none` stands where it has nothing.
-    std::vector<BufferRange> bindings(const Buffer& numbers) const {
-        std::vector<BufferRange> all(kWeightBindings, BufferRange(numbers));
-        all[kWeightSegments] = segments, all[kWeightLines] = lines;
-        all[kWeightOffsets] = offsets, all[kWeightEntries] = entries;
-        all[kWeightSlots] = slots, all[kWeightOwners] = owners;
-        all[kWeightRowOffsets] = row_offsets, all[kWeightRows] = rows;
+    std::vector<BufferRange> bindings(const Buffer& none) const {
+        std::vector<BufferRange> all(kWeightBindings, BufferRange(none));
+        all[kWeightSegments] = lists.map->segments(), all[kWeightLines] = lists.map->lines();
+        all[kWeightOffsets] = lists.offsets, all[kWeightEntries] = lists.entries;
+        all[kWeightSlots] = lists.slots, all[kWeightOwners] = lists.owners;
+        all[kWeightRowOffsets] = lists.map->rowOffsets(), all[kWeightRows] = lists.map->rows();
+        all[kWeightSumFirst] = sum_first;
         return all;
     }
 };
@@ -138,14 +179,17 @@ WeightPasses::WeightPasses(const Device& device, const Prefilter& filter, const 
       options_(options),
       kernel_(filter, options.precision),
       numbers_(numbersOf(device, kernel_, options.precision)),
+      lists_(device, filter.radius),
       terms_(device, shaderOf(options.precision), kWeightBindings, sizeof(WeightPush), kernel_.constants),
       finish_(device, "weights_finish.comp", kWeightBindings, sizeof(WeightPush),
-              {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u, mostTurns(device)}),
+              {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u,
+               static_cast<std::uint32_t>(grantedTurns(device.traits()))}),
       fill_(device, "weights_fill.comp", kWeightBindings, sizeof(WeightPush)),
       scan_(device) {}
 
-std::optional<WeightEntries> WeightPasses::addTo(PassGraph& graph, const WeightInput& input) {
-    const auto job = std::make_shared<Job>(device_, input, filter_.radius);
+std::optional<WeightEntries> WeightPasses::addTo(PassGraph& graph, const WeightLists& lists,
+                                                 const PixelBox& box) {
+    const auto job = std::make_shared<Job>(device_, lists, box);
     if (job->sumBytes() > kMostSumBytes) return std::nullopt;
     addTerms(graph, job);
     addFinish(graph, job);
@@ -162,27 +206,28 @@ void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
     auto buffers = job.bindings(numbers_);
     buffers[kWeightSums] = pass[job.sums], buffers[kWeightStates] = pass[job.states];
     WeightPush push = job.push(kernel_.kernel.lanes);
-    const std::size_t most = mostTurns(device_) / (kernel_.turns + 1);
+    const std::size_t most = grantedTurns(device_.traits()) / (kernel_.turns + 1);
     push.count =
-        static_cast<uint>(std::clamp<std::size_t>(most, 1, std::max<std::size_t>(job.lists.longest, 1)));
+        static_cast<uint>(std::clamp<std::size_t>(most, 1, std::max<std::size_t>(job.tiles.longest, 1)));
     do {
         terms_.dispatch(pass.commands, buffers, job.groups(), push);
         waitFor(vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite, pass.commands);
         push.first += push.count;
-    } while (push.first < job.lists.longest);
+    } while (push.first < job.tiles.longest);
 }
 
 void WeightPasses::addTerms(PassGraph& graph, const std::shared_ptr<Job>& job) {
     job->sums = graph.buffer("sums", [=] { return job->sumBytes(); });
-    job->states =
-        graph.buffer("pixel states", [=] { return job->tiles() * kTilePixels * sizeof(GpuPixelState); });
+    job->states = graph.buffer("pixel states",
+                               [=] { return job->tiles.count() * kTilePixels * sizeof(GpuPixelState); });
     graph.add("weights", {.reads = {},
                           .writes = {job->sums, job->states},
                           .record = [=, this](const PassContext& pass) { recordTerms(pass, *job); }});
 }
 
 void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) {
-    job->kinds = graph.buffer("pixel kinds", [=] { return job->tiles() * kTilePixels * 2 * sizeof(uint); });
+    job->kinds =
+        graph.buffer("pixel kinds", [=] { return job->tiles.count() * kTilePixels * 2 * sizeof(uint); });
     job->counts = graph.buffer("entry counts", [=] { return job->pixels() * sizeof(uint); });
     job->status = graph.buffer("weights status", [] { return sizeof(GpuWeightStatus); });
     job->handed_list = graph.buffer("pixels handed back", [=] { return job->pixels() * sizeof(uint); });
@@ -214,9 +259,10 @@ void WeightPasses::makeOnHost(const PassGraph& graph, Job& job) {
         job.handed.push_back({pixel, {}});
     const auto counts = graph[job.counts].view<uint>(job.pixels());
     tbb::enumerable_thread_specific<WeightWorker> workers([&] { return WeightWorker(filter_, options_); });
+    const HandedSegments segments = job.segmentsOfHanded();
     tbb::parallel_for(std::size_t{0}, job.handed.size(), [&](std::size_t i) {
         HandedPixel& handed = job.handed[i];
-        handed.entries = job.makeOnHost(handed.pixel, workers.local());
+        handed.entries = job.makeOnHost(handed.pixel, segments, workers.local());
         counts[handed.pixel] = static_cast<uint>(handed.entries.size());
     });
     for (const WeightWorker& w : workers) report_.label_conflicts += w.labelConflicts();

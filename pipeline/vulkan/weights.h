@@ -6,19 +6,12 @@
 #include <memory>
 #include <optional>
 
-#include "pipeline/vulkan/pass_graph.h"
 #include "pipeline/vulkan/scan.h"
 #include "pipeline/vulkan/weight_kernel.h"
+#include "pipeline/vulkan/weight_lists.h"
 #include "pipeline/weights.h"
 
 namespace edgewise::vulkan {
-
-struct WeightInput {
-    const VisibleMap& map;
-    const OwnerClasses& classes;
-    PixelBox box;
-    glm::dvec2 offset_px{0.0};  ///< whole pixels
-};
 
 /// The entries of a box, pixel by pixel in rows.
 struct WeightEntries {
@@ -39,8 +32,12 @@ class WeightPasses {
   public:
     WeightPasses(const Device& device, const Prefilter& filter, const WeightOptions& options);
 
-    /// nullopt where the box has more than the device is given at once: halve it.
-    std::optional<WeightEntries> addTo(PassGraph& graph, const WeightInput& input);
+    /// What the boxes of an area share; nullopt where it has more than the device is given at once: halve it.
+    std::optional<WeightLists> listsOf(const WeightInput& input) { return lists_.make(input); }
+
+    /// Of whole tiles, but for the area's end; nullopt where the box has more owners than are weighed at
+    /// once: halve it. The lists outlive the graph's runs.
+    std::optional<WeightEntries> addTo(PassGraph& graph, const WeightLists& lists, const PixelBox& box);
 
     const WeightReport& report() const { return report_; }
 
@@ -57,6 +54,7 @@ class WeightPasses {
     const WeightOptions options_;
     WeightKernel kernel_;
     Buffer numbers_;
+    WeightListPasses lists_;
     ComputePass terms_, finish_, fill_;
     Scan scan_;
     WeightReport report_;

@@ -24,6 +24,7 @@ layout(std430, binding = kWeightOutOwners) writeonly buffer OutOwners { uint out
 layout(std430, binding = kWeightOutWeights) writeonly buffer OutWeights { int64_t out_weights[]; };
 layout(std430, binding = kWeightStatus) buffer Status { GpuWeightStatus status; };
 layout(std430, binding = kWeightHanded) writeonly buffer Handed { uint handed[]; };
+layout(std430, binding = kWeightSumFirst) readonly buffer SumFirst { uint sum_first[]; };
 layout(push_constant) uniform Push { WeightPush push; };
 
 uint tileIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }
@@ -43,10 +44,14 @@ uint pixelIndex() { return uint(pixelInBox().y * push.width + pixelInBox().x); }
 double sampleX() { return (double(push.x0 + pixelInBox().x) + 0.5lf) + push.offset_x; }
 double sampleY() { return (double(push.y0 + pixelInBox().y) + 0.5lf) + push.offset_y; }
 
+/// Of the lists.
+uint listIndex() {
+    return push.first_tile + tileIndex() / push.tile_columns * push.list_columns + tileIndex() % push.tile_columns;
+}
 /// The sum of the tile's owner at `place` for this invocation's pixel.
-uint sumIndex(uint place) { return (slots[tileIndex()] + place) * 64u + gl_LocalInvocationIndex; }
-uint ownerCount() { return slots[tileIndex() + 1u] - slots[tileIndex()]; }
-uint ownerAt(uint place) { return owners[slots[tileIndex()] + place]; }
+uint sumIndex(uint place) { return (sum_first[tileIndex()] + place) * 64u + gl_LocalInvocationIndex; }
+uint ownerCount() { return slots[listIndex() + 1u] - slots[listIndex()]; }
+uint ownerAt(uint place) { return owners[slots[listIndex()] + place]; }
 
 /// splitmix64's mixer: sums of it tell whether two multisets of owners are equal.
 uint64_t hashOf(uint owner) {

@@ -46,14 +46,23 @@ struct WeightPush {
     uint first, count;  // which entries of every list
     int row_begin;      // of the map's rows
     uint group_row;     // workgroups a row of them
+    uint first_tile, list_columns;  // of the lists: the box's first, and how many lie in a row
+};
+
+/// Of the passes that make a box of tiles' lists.
+struct WeightListPush {
+    double offset_x, offset_y, reach;
+    int x0, y0;
+    uint columns, rows;  // of tiles
+    uint segments, group_row;
 };
 
 const int kWeightNumbers = 0;
 const int kWeightSegments = 1;   // GpuSegment
 const int kWeightLines = 2;      // GpuCarrierLine
-const int kWeightOffsets = 3;    // by tile, into the next
+const int kWeightOffsets = 3;    // by tile of the lists, into the next, twice
 const int kWeightEntries = 4;    // GpuTileSegment
-const int kWeightSlots = 5;      // by tile, into the next
+const int kWeightSlots = 5;      // by tile of the lists, into the next
 const int kWeightOwners = 6;     // ascending within a tile
 const int kWeightSums = 7;       // int64, by owner of a tile and pixel of the tile
 const int kWeightStates = 8;     // GpuPixelState, by tile and pixel of the tile
@@ -66,4 +75,16 @@ const int kWeightOutOwners = 14;
 const int kWeightOutWeights = 15;
 const int kWeightStatus = 16;    // GpuWeightStatus
 const int kWeightHanded = 17;    // pixels of the box that are handed back
-const int kWeightBindings = 18;
+const int kWeightSumFirst = 18;  // by tile of the box: owners before it
+const int kWeightBindings = 19;
+
+const int kListSegments = 0;   // GpuSegment, with owners by their classes' names
+const int kListHistogram = 1;  // by tile: the owners on both sides of its segments
+const int kListOffsets = 2;    // by tile, into sides; half of it into entries
+const int kListEntries = 3;    // GpuTileSegment, at first with the owners themselves
+const int kListSides = 4;      // owners, two a segment, then sorted; and as much room again
+const int kListFirsts = 5;     // by side: 1 for the first of its name in the tile
+const int kListPlaces = 6;     // by side: first ones before it
+const int kListSlots = 7;      // by tile, into owners
+const int kListOwners = 8;
+const int kListBindings = 9;

@@ -32,9 +32,16 @@ class DeviceWeighing final : public NsaaStages {
     }
     void render(NsaaFrame& frame, const VisibleMap& map, const BandOwners& owners,
                 const PixelBox& band) override {
+        if (!weights_) weights_.emplace(device(), frame.in.filter, frame.plan.weights);
+        auto all = WeightMap::ofAll(device(), map, owners.alike.classes);
+        ASSERT_TRUE(all) << "a map that does not fit";
+        const WeightInput input{map, owners.alike.classes, band, frame.offset(),
+                                std::make_shared<const WeightMap>(std::move(*all))};
+        const auto lists = weights_->listsOf(input);
+        ASSERT_TRUE(lists) << "a band that does not fit";
         for (int y = band.y0; y < band.y1; y += kWeightTilePx)
             for (int x = band.x0; x < band.x1; x += kWeightTilePx)
-                compare(frame, map, owners.alike.classes,
+                compare(frame, *lists,
                         {x, y, std::min(x + kWeightTilePx, band.x1), std::min(y + kWeightTilePx, band.y1)});
         found.handed = weights_->report().handed;
         found.device_terms = weights_->report().terms;
@@ -53,10 +60,15 @@ class DeviceWeighing final : public NsaaStages {
         return tile;
     }
 
-    void compare(NsaaFrame& frame, const VisibleMap& map, const OwnerClasses& classes, const PixelBox& box) {
-        if (!weights_) weights_.emplace(device(), frame.in.filter, frame.plan.weights);
+    /// Boxes take turns: the band's lists and map, or those of the box alone.
+    void compare(NsaaFrame& frame, const WeightLists& of_band, const PixelBox& box) {
+        const VisibleMap& map = of_band.input.map;
+        const OwnerClasses& classes = of_band.input.classes;
+        const bool alone = boxes_++ % 2 == 1;
+        const auto of_box = alone ? weights_->listsOf({map, classes, box, frame.offset(), {}}) : std::nullopt;
+        ASSERT_EQ(alone, of_box.has_value());
         PassGraph graph(device());
-        const auto entries = weights_->addTo(graph, {map, classes, box, frame.offset()});
+        const auto entries = weights_->addTo(graph, of_box ? *of_box : of_band, box);
         ASSERT_TRUE(entries) << "a tile that does not fit";
         graph.run({entries->offsets, entries->owners, entries->weights});
         const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
@@ -92,6 +104,7 @@ class DeviceWeighing final : public NsaaStages {
     }
 
     std::optional<WeightPasses> weights_;
+    std::size_t boxes_ = 0;
 };
 
 inline WeightComparison compareWeights(const MethodInput& input) {
