@@ -105,9 +105,10 @@ class VulkanStages : public CpuStages {
 
     WeightTile weights(NsaaFrame& frame, const VisibleMap& map, const OwnerClasses& classes,
                        const PixelBox& box) override {
+        if (why_not_weighed_) return CpuStages::weights(frame, map, classes, box);
+        const auto lists = weights_.listsOf({map, classes, box, frame.offset(), nullptr});
         PassGraph graph(device_);
-        std::optional<WeightEntries> entries;
-        if (!why_not_weighed_) entries = weights_.addTo(graph, {map, classes, box, frame.offset()});
+        const auto entries = lists ? weights_.addTo(graph, *lists, box) : std::nullopt;
         if (!entries) return CpuStages::weights(frame, map, classes, box);
         graph.run({entries->offsets, entries->owners, entries->weights});
         return readBack(graph, *entries, box);
