@@ -40,8 +40,10 @@ class DeviceFallback : public testing::Test {
 };
 
 TEST_F(DeviceFallback, GoesOnWithTheCpuAndSaysWhy) {
-    for (const auto& [fails, why] :
-         {std::pair(outOfMemory, "ErrorOutOfDeviceMemory"), std::pair(lost, "vkQueueSubmit")}) {
+    using Run = MethodResult (*)(const MethodSpec&, const MethodInput&);
+    const std::pair<Run, const char*> failures[] = {{outOfMemory, "ErrorOutOfDeviceMemory"},
+                                                    {lost, "vkQueueSubmit"}};
+    for (const auto& [fails, why] : failures) {
         const MethodResult result = run(fails, false);
         EXPECT_EQ(result.device, "cpu");
         ASSERT_EQ(result.notes.size(), 1u);
