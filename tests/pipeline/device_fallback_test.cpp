@@ -40,9 +40,9 @@ class DeviceFallback : public testing::Test {
 };
 
 TEST_F(DeviceFallback, GoesOnWithTheCpuAndSaysWhy) {
-    using Run = MethodResult (*)(const MethodSpec&, const MethodInput&);
-    const std::pair<Run, const char*> failures[] = {{outOfMemory, "ErrorOutOfDeviceMemory"},
-                                                    {lost, "vkQueueSubmit"}};
+    using DeviceForm = MethodResult (*)(const MethodSpec&, const MethodInput&);
+    const std::pair<DeviceForm, const char*> failures[] = {{outOfMemory, "ErrorOutOfDeviceMemory"},
+                                                           {lost, "vkQueueSubmit"}};
     for (const auto& [fails, why] : failures) {
         const MethodResult result = run(fails, false);
         EXPECT_EQ(result.device, "cpu");
