@@ -30,6 +30,16 @@ layout(push_constant) uniform Push { WeightPush push; };
 uint tileIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }
 uint stateIndex() { return tileIndex() * 64u + gl_LocalInvocationIndex; }
 
+/// The workgroup's tile: its place in the lists, its owners there, and how many sums of the box lie before its own.
+uint listed_tile = 0u, owners_begin = 0u, owners_end = 0u, sums_begin = 0u;
+void findTile() {
+    uint row = tileIndex() / push.tile_columns, column = tileIndex() % push.tile_columns;
+    listed_tile = push.first_tile + row * push.list_columns + column;
+    owners_begin = slots[listed_tile];
+    owners_end = slots[listed_tile + 1u];
+    sums_begin = sum_first[tileIndex()];
+}
+
 /// In the box.
 ivec2 pixelInBox() {
     int tile = int(tileIndex()), lane = int(gl_LocalInvocationIndex), columns = int(push.tile_columns);
@@ -37,6 +47,7 @@ ivec2 pixelInBox() {
 }
 bool hasPixel() {
     if (tileIndex() >= push.tiles) return false;
+    findTile();
     ivec2 at = pixelInBox();
     return at.x < push.width && at.y < push.height;
 }
@@ -44,14 +55,10 @@ uint pixelIndex() { return uint(pixelInBox().y * push.width + pixelInBox().x); }
 double sampleX() { return (double(push.x0 + pixelInBox().x) + 0.5lf) + push.offset_x; }
 double sampleY() { return (double(push.y0 + pixelInBox().y) + 0.5lf) + push.offset_y; }
 
-/// Of the lists.
-uint listIndex() {
-    return push.first_tile + tileIndex() / push.tile_columns * push.list_columns + tileIndex() % push.tile_columns;
-}
 /// The sum of the tile's owner at `place` for this invocation's pixel.
-uint sumIndex(uint place) { return (sum_first[tileIndex()] + place) * 64u + gl_LocalInvocationIndex; }
-uint ownerCount() { return slots[listIndex() + 1u] - slots[listIndex()]; }
-uint ownerAt(uint place) { return owners[slots[listIndex()] + place]; }
+uint sumIndex(uint place) { return (sums_begin + place) * 64u + gl_LocalInvocationIndex; }
+uint ownerCount() { return owners_end - owners_begin; }
+uint ownerAt(uint place) { return owners[owners_begin + place]; }
 
 /// splitmix64's mixer: sums of it tell whether two multisets of owners are equal.
 uint64_t hashOf(uint owner) {

@@ -105,8 +105,8 @@ void takeSegment(GpuTileSegment entry, inout GpuPixelState state) {
 void main() {
     if (!hasPixel()) return;
     readKernel(push.radius, push.inner_radius);
-    uint begin = offsets[listIndex()] / 2u + push.first;
-    uint end = min(begin + push.count, offsets[listIndex() + 1u] / 2u);
+    uint begin = offsets[listed_tile] / 2u + push.first;
+    uint end = min(begin + push.count, offsets[listed_tile + 1u] / 2u);
     if (push.first > 0u && begin >= end) return;
     GpuPixelState state = freshState();
     if (push.first > 0u) state = states[stateIndex()];
