@@ -26,25 +26,26 @@ struct GpuLine {
     double a[2], b[2], A[2], B[2], C[2];
     double y0[2], y1[2], in0[2], in1[2];  // OrderKeys; of a horizontal in0 is its key
     double enter[4], exit[4], slope, x_low, x_high;
-    uint key_low, key_high, line_i, line_j, bounds, pad;
+    uint key_low, key_high, line_i, line_j, bounds, span;  // span: numbers of keys, see visibility_keys.comp
     int side_before, side_after;
 };
 
-/// analytic/slab_sweep.cpp: Track.
+/// analytic/slab_sweep.cpp: Track; what a dispatch leaves to the next, and abscissae at the slab's top and bottom.
 struct GpuTrack {
-    double x_top, x_bottom, x_mid, top[4], bottom[4], start[4];
-    uint bottom_known, is_open, left, right, labelled_in, new_left, new_right, pad;
+    double x, grid[2], rest[2], start[4];
+    uint noted, is_open, left, right;
 };
 
 /// Where two lines of a leaf meet.
 struct GpuEvent {
     double key[2], point[4];
-    uint p, q;
+    uint p, q, slab, pad;  // slab: the number of its key
 };
 
-/// An OrderKey and its ordinate.
+/// An OrderKey and its ordinate; of an item that is sorted, whose it is.
 struct GpuKey {
     double key[2], y[2];
+    uint of, pad;
 };
 
 /// A depth plane about the leaf's origin.
@@ -113,6 +114,9 @@ const uint kLeafDone = 1u;
 const uint kLeafHanded = 2u;
 const uint kLeafUndecided = 3u;  // a comparison of depths needs exact arithmetic
 
+/// In GpuLine::span of a line that does not run inside.
+const uint kPassesLeft = 256u;
+
 const uint kNoTag = 0xffffffffu;
 
 // Room for one leaf; what needs more is handed back.
@@ -123,6 +127,7 @@ const uint kLeafEvents = 200u;
 const uint kLeafKeyItems = 400u;
 const uint kLeafKeys = 256u;
 const uint kLeafBreaks = 64u;
+const uint kLeafOwners = 16u;  // its triangles' and the background, and one place to write beyond
 /// Words of a leaf: order, lines by entry, profiles above and below, balance, pairs; items' order twice.
 const uint kWordOrder = 0u;
 const uint kWordEntry = 48u;
