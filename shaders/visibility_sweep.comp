@@ -12,10 +12,8 @@ layout(constant_id = 1) const bool kExact = false;  // comparisons that the filt
 #include "shared/visibility_leaf.glsl"
 #include "shared/exact_sign.glsl"
 
-// After this many loops a leaf waits for the next dispatch; a slab takes some hundreds. A leaf that needs exact
+// Beyond the budget of loops a leaf waits for the next dispatch; a slab takes some hundreds. A leaf that needs exact
 // comparisons runs alone.
-const uint kBudget = 3000u;
-const uint kExactBudget = 30000u;
 const uint kExactLoops = 400u;  // of one comparison
 
 const uint kBorderLine = 0xffffffffu;  // in the place of a line: the cell's border
@@ -209,7 +207,7 @@ dd exactMiddle(uint line, double border_grid) {
 
 /// Decided at the canonical middle, which knows nothing of the cell's frame.
 bool exactlyInFront(LocalPlane p, LocalPlane q, uint left, uint right) {
-    if (!kExact || spent + kExactLoops > 2u * kExactBudget) {
+    if (!kExact || spent + kExactLoops > 2u * loopBudget()) {
         undecided = true;
         return false;
     }
@@ -533,8 +531,7 @@ void main() {
     if (!openLeaf()) return;
     load();
     bool fits = true;
-    uint budget = kExact ? kExactBudget : kBudget;
-    for (; leaf.slab + 1u < leaf.keys && spent < budget && fits; ++leaf.slab, spent += 50u) {
+    for (; leaf.slab + 1u < leaf.keys && spent < loopBudget() && fits; ++leaf.slab, spent += 50u) {
         readSlab(leaf.slab);
         locate(leaf.slab);
         locateFinely();

@@ -54,13 +54,6 @@ struct GpuLocalPlane {
     uint plane, owner;
 };
 
-/// Where the owner above or below an ordinate changes.
-struct GpuBreak {
-    double x[2];
-    int above;
-    uint before, after, pad;
-};
-
 /// A row meets an edge of a sheet.
 struct GpuCrossing {
     double x, slope;
@@ -83,7 +76,7 @@ struct VisibilityPush {
     int x0_px, y0_px, columns, flags;
     uint first, count, max_triangles, sheet_small;
     double min_cell_px;
-    uint sheet_most, pad;
+    uint sheet_most, loop_turns;
 };
 
 /// Counters that the shaders share, and the room that the buffers have.
@@ -128,12 +121,10 @@ const uint kLeafKeyItems = 400u;
 const uint kLeafKeys = 256u;
 const uint kLeafBreaks = 64u;
 const uint kLeafOwners = 16u;  // its triangles' and the background, and one place to write beyond
-/// Words of a leaf: order, lines by entry, profiles above and below, balance, pairs; items' order twice.
+/// Words of a leaf: order, lines by entry, profile above, pairs; items' order twice.
 const uint kWordOrder = 0u;
 const uint kWordEntry = 48u;
 const uint kWordAbove = 96u;    // line, owner after it
-const uint kWordBelow = 192u;   // line, owner after it
-const uint kWordBalance = 288u; // owner, count
 const uint kWordItems = 352u;   // order of key items
 const uint kWordItems2 = 752u;
 const uint kWordPairs = 352u;   // candidate pairs, before keys are sorted
@@ -143,11 +134,10 @@ const uint kSheetTriangles = 500u;
 const uint kSheetSmall = 64u;
 /// A cell with more candidates is the host's.
 const uint kCellCandidates = 3000u;
-/// Loops of all invocations that run together, eight of them where the device is a program, are stopped after 65535,
-/// silently. Every shader counts its own, also those that others wait for: where one of eight has had as many as this,
-/// some may have been stopped.
-const uint kLoopsTogether = 8191u;
-const uint kLoopsAlone = 65535u;
+/// Where the device is a program (DeviceTraits::loop_turns), loops of all invocations that run together, eight of them,
+/// are stopped after so many turns, silently. Every shader counts its own, also those that others wait for: where one of
+/// them has had its share, some may have been stopped.
+const uint kTogether = 8u;
 
 // Bindings.
 const int kVisTriangles = 0;
@@ -172,6 +162,5 @@ const int kVisEvents = 18;
 const int kVisKeys = 19;
 const int kVisItems = 20;
 const int kVisLocalPlanes = 21;
-const int kVisBreaks = 22;
-const int kVisWords = 23;
-const int kVisBindings = 24;
+const int kVisWords = 22;
+const int kVisBindings = 23;
