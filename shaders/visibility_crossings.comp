@@ -33,7 +33,7 @@ uint candidates() {
 
 bool addEvent(OrderKey key, uint p, uint q, FinePoint point) {
     if (leaf.events >= kLeafEvents) return false;
-    events[eventAt(leaf.events++)] = GpuEvent(keyTo(key), pointTo(point), p, q);
+    events[eventAt(leaf.events++)] = GpuEvent(keyTo(key), pointTo(point), p, q, 0u, 0u);
     return true;
 }
 

@@ -7,10 +7,18 @@ layout(local_size_x = 64) in;
 uint item_count = 0u;
 bool fits = true;
 
-void addKey(OrderKey key, FineCoordinate y) {
-    if (!keyLess(frame.top, key) || !keyLess(key, frame.bottom)) return;
+// Whose an item is: a line's place among four, or an event. Lines keep the numbers of their keys, a byte each, in
+// `span`: where they begin, enter, exit and end; 0 and 255 for the cell's top and bottom. One that does not run inside is
+// on one side all along: it has kPassesLeft for the left one, or 0, in the place of the middle two.
+const uint kOfEvent = 1024u;
+
+/// Returns the number of the key, as far as it is known before they are sorted.
+uint addKey(OrderKey key, FineCoordinate y, uint of) {
+    bool below = keyLess(frame.top, key), above = keyLess(key, frame.bottom);
+    if (!below || !above) return above ? 0u : 255u;
     fits = fits && item_count < kLeafKeyItems;
-    if (fits) items[itemAt(item_count++)] = GpuKey(keyTo(key), double[2](y.grid, y.rest));
+    if (fits) items[itemAt(item_count++)] = GpuKey(keyTo(key), double[2](y.grid, y.rest), of, 0u);
+    return 0u;
 }
 
 void collectItems() {
@@ -18,19 +26,30 @@ void collectItems() {
         GpuLine line = lines[lineAt(i)];
         OrderKey in0 = keyFrom(line.in0), in1 = keyFrom(line.in1);
         bool inside = keyLess(in0, in1);
+        uint span = 0u;
         if (inside) {
-            addKey(in0, yOf(pointFrom(line.enter)));
-            addKey(in1, yOf(pointFrom(line.exit)));
+            span |= addKey(in0, yOf(pointFrom(line.enter)), 4u * i + 1u) << 8;
+            span |= addKey(in1, yOf(pointFrom(line.exit)), 4u * i + 2u) << 16;
         }
         if (line.line_j >= kFirstEdge && (line.side_before < 0 || line.side_after < 0 || inside)) {
-            addKey(keyFrom(line.y0), FineCoordinate(line.a[1], 0.0lf));
-            addKey(keyFrom(line.y1), FineCoordinate(line.b[1], 0.0lf));
+            span |= addKey(keyFrom(line.y0), FineCoordinate(line.a[1], 0.0lf), 4u * i);
+            span |= addKey(keyFrom(line.y1), FineCoordinate(line.b[1], 0.0lf), 4u * i + 3u) << 24;
         }
+        if (!inside) span |= kPassesLeft * uint((keyLess(keyFrom(line.y0), in1) ? line.side_before : line.side_after) < 0);
+        lines[lineAt(i)].span = span;
     }
-    for (uint e = 0u; e < leaf.events; ++e)
-        addKey(keyFrom(events[eventAt(e)].key), yOf(pointFrom(events[eventAt(e)].point)));
+    for (uint e = 0u; e < leaf.events; ++e) {
+        GpuEvent event = events[eventAt(e)];
+        events[eventAt(e)].slab = addKey(keyFrom(event.key), yOf(pointFrom(event.point)), kOfEvent + e);
+    }
     for (uint h = 0u; h < leaf.horizontals; ++h)
-        addKey(keyFrom(horizontals[horizontalAt(h)].in0), yOf(pointFrom(horizontals[horizontalAt(h)].enter)));
+        addKey(keyFrom(horizontals[horizontalAt(h)].in0), yOf(pointFrom(horizontals[horizontalAt(h)].enter)), kNoTag);
+}
+
+/// Tells a line or an event the number of its key.
+void tell(uint of, uint key) {
+    if (of < 4u * kLeafLines) lines[lineAt(of >> 2)].span |= key << (8u * (of & 3u));
+    if (of >= kOfEvent && of != kNoTag) events[eventAt(of - kOfEvent)].slab = key;
 }
 
 OrderKey sortKey(uint i, bool of_events) {
@@ -66,17 +85,19 @@ uint sortedOrder(uint count, bool of_events) {
 
 void distinctKeys(uint order) {
     OrderKey last = frame.top;
-    keys[keyAt(0u)] = GpuKey(keyTo(last), double[2](frame.cell.min.y, border(0.0lf).rest));
+    keys[keyAt(0u)] = GpuKey(keyTo(last), double[2](frame.cell.min.y, border(0.0lf).rest), 0u, 0u);
     uint count = 1u;
     for (uint i = 0u; i < item_count; ++i) {
         GpuKey item = items[itemAt(words[wordAt(order + i)])];
-        if (keyEqual(keyFrom(item.key), last)) continue;
-        last = keyFrom(item.key);
-        if (count < kLeafKeys) keys[keyAt(count)] = item;
-        ++count;
+        if (!keyEqual(keyFrom(item.key), last)) {
+            last = keyFrom(item.key);
+            if (count < kLeafKeys) keys[keyAt(count)] = item;
+            ++count;
+        }
+        tell(item.of, count - 1u);
     }
     if (count < kLeafKeys)
-        keys[keyAt(count)] = GpuKey(keyTo(frame.bottom), double[2](frame.cell.max.y, border(0.0lf).rest));
+        keys[keyAt(count)] = GpuKey(keyTo(frame.bottom), double[2](frame.cell.max.y, border(0.0lf).rest), 0u, 0u);
     ++count;
     fits = fits && count <= kLeafKeys;
     leaf.keys = count;
@@ -123,14 +144,6 @@ void sortEntries() {
     }
 }
 
-void clearTracks() {
-    for (uint i = 0u; i < leaf.lines; ++i) {
-        tracks[lineAt(i)].bottom_known = 0u;
-        tracks[lineAt(i)].is_open = 0u;
-        tracks[lineAt(i)].labelled_in = kNoTag;
-    }
-}
-
 void main() {
     if (!openLeaf()) return;
     collectItems();
@@ -141,7 +154,6 @@ void main() {
         sortEvents();
         sortHorizontals();
         sortEntries();
-        clearTracks();
     }
     // What was counted above, and the loops of the other functions.
     spent += 2u * leaf.lines + 4u * leaf.events + item_count + leaf.horizontals * (leaf.horizontals + 2u) + 40u;

@@ -53,7 +53,7 @@ bool crossingBefore(GpuCrossing a, GpuCrossing b) {
 
 /// Shell's sort, with gaps that suit some hundred items. False where it takes more loops than there are.
 bool sortCrossings(uint base, uint count) {
-    uint moves = 0u, most = gl_WorkGroupSize.x == 1u ? 30000u : 3000u;
+    uint moves = 0u, most = loopBudget();
     for (uint gap = 57u; gap > 0u; gap = gap == 57u ? 23u : (gap == 23u ? 10u : (gap == 10u ? 4u : (gap == 4u ? 1u : 0u))))
         for (uint i = gap; i < count; ++i, spent += 2u) {
             GpuCrossing item = crossings[base + i];

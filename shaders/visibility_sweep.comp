@@ -1,7 +1,9 @@
 #version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 // The owners of a leaf, slab by slab: analytic/slab_sweep.cpp. A dispatch sweeps as many slabs as the budget of loops
-// allows; what a leaf knows stays in its buffers until the next.
+// allows; what a leaf knows stays in its buffers until the next. While it is swept that lies in arrays of the
+// invocation's own, and what few lines need is done in loops of its own over those lines: invocations that run together
+// all go where one of them goes.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const bool kExact = false;  // comparisons that the filter leaves open are decided
 #include "shared/visibility_buffers.glsl"
@@ -10,10 +12,8 @@ layout(constant_id = 1) const bool kExact = false;  // comparisons that the filt
 #include "shared/visibility_leaf.glsl"
 #include "shared/exact_sign.glsl"
 
-// After this many loops a leaf waits for the next dispatch; a slab takes some hundreds. A leaf that needs exact
+// Beyond the budget of loops a leaf waits for the next dispatch; a slab takes some hundreds. A leaf that needs exact
 // comparisons runs alone.
-const uint kBudget = 3000u;
-const uint kExactBudget = 30000u;
 const uint kExactLoops = 400u;  // of one comparison
 
 const uint kBorderLine = 0xffffffffu;  // in the place of a line: the cell's border
@@ -25,19 +25,61 @@ const double kSame = 2.6469779601696886e-23lf;
 bool undecided = false;
 uint mask_bits;
 double y_mid;
-OrderKey top_key, bottom_key;
 FineCoordinate top_y, bottom_y;
+OrderKey top_key, bottom_key;
 uint below_first, below_count;
+bool same_profiles;
+
+// By line.
+uint spans[kLeafLines], bounds[kLeafLines];
+double enter_x[kLeafLines], exit_x[kLeafLines], enter_grid[kLeafLines], enter_rest[kLeafLines], slopes[kLeafLines];
+double x_ends[kLeafLines], x_middles[kLeafLines];  // at the slab's bottom, or at its top until the line is placed; at its middle
+uint noted[2u * kLeafLines];                       // 256 key + event, by the key's parity: the newest of a line
+uint left_owner[kLeafLines], right_owner[kLeafLines], new_left[kLeafLines], new_right[kLeafLines];
+uint64_t left_lines, open_lines, labelled, relabelled;
+// By place from left to right.
+uint order[kLeafLines], arrived[kLeafLines], chosen_at[kLeafLines];
+double x_order[kLeafLines];
+uint64_t joined;  // places whose line runs on that of the place before
+bool unsure;
+uint entry_line[kLeafLines];
+uint profile_line[2u * kLeafLines], profile_owner[2u * kLeafLines];  // by the slab's parity
+LocalPlane local_plane[kLeafTriangles];
+
+uint64_t bitOf(uint i) { return uint64_t(1u) << i; }
+bool holds(uint64_t bits, uint i) { return (bits >> i & uint64_t(1u)) != uint64_t(0u); }
+uint lowest(uint64_t bits) {
+    uvec2 halves = unpackUint2x32(bits);
+    return uint(halves.x != 0u ? findLSB(halves.x) : 32 + findLSB(halves.y));
+}
 
 FineCoordinate ordinateOf(GpuKey key) { return FineCoordinate(key.y[0], key.y[1]); }
 double localY(FineCoordinate y) { return (y.grid - frame.origin.y) + y.rest; }
-uint ordered_line(uint i) { return words[wordAt(kWordOrder + i)]; }
+uint profileAt(uint slab) { return (slab & 1u) * kLeafLines; }
+uint notedAt(uint key, uint i) { return (key & 1u) * kLeafLines + i; }
+
+// The keys where a line begins on the left or right, enters, exits, and ends: a byte each.
+uint beginOf(uint span) { return span & 255u; }
+uint enterOf(uint span) { return span >> 8 & 255u; }
+uint exitOf(uint span) { return span >> 16 & 255u; }
+uint endOf(uint span) { return span >> 24; }
 
 double xAt(uint i, FineCoordinate y) {
-    FinePoint from = pointFrom(lines[lineAt(i)].enter);
-    double dy = (y.grid - from.grid.y) + (y.rest - from.rest.y);
-    return localX(frame, from) + dy * lines[lineAt(i)].slope;
+    double dy = (y.grid - enter_grid[i]) + (y.rest - enter_rest[i]);
+    return enter_x[i] + dy * slopes[i];
 }
+
+/// The canonical point of a line at a key: where it enters or exits, where an event gave it, or computed.
+FinePoint pointAt(uint i, uint key, FineCoordinate y, bool enters) {
+    uint note = noted[notedAt(key, i)];
+    FinePoint point = pointAtY(carrierFrom(lines[lineAt(i)]), y);
+    if (note >> 8 == key) point = pointFrom(events[eventAt(note & 255u)].point);
+    if (enters && enterOf(spans[i]) == key) point = pointFrom(lines[lineAt(i)].enter);
+    if (exitOf(spans[i]) == key) point = pointFrom(lines[lineAt(i)].exit);
+    return point;
+}
+FinePoint topPoint(uint i) { return pointAt(i, leaf.slab, top_y, true); }
+FinePoint bottomPoint(uint i) { return pointAt(i, leaf.slab + 1u, bottom_y, false); }
 
 void emit(uvec2 key, LineRef line, uint left, uint right, FinePoint a, FinePoint b) {
     if (left == right) return;
@@ -48,126 +90,145 @@ void emit(uvec2 key, LineRef line, uint left, uint right, FinePoint a, FinePoint
 }
 
 void closePiece(uint i, FinePoint end) {
-    GpuTrack t = tracks[lineAt(i)];
-    if (t.is_open == 0u) return;
     GpuLine line = lines[lineAt(i)];
-    FinePoint start = pointFrom(t.start);
+    FinePoint start = pointFrom(tracks[lineAt(i)].start);
     double dx = difference(xOf(end), xOf(start)), dy = difference(yOf(end), yOf(start));
     bool along = dx * line.slope + dy >= 0.0lf;
-    emit(uvec2(line.key_low, line.key_high), LineRef(line.line_i, line.line_j), along ? t.left : t.right,
-         along ? t.right : t.left, along ? start : end, along ? end : start);
-    tracks[lineAt(i)].is_open = 0u;
+    uint left = left_owner[i], right = right_owner[i];
+    emit(uvec2(line.key_low, line.key_high), LineRef(line.line_i, line.line_j), along ? left : right,
+         along ? right : left, along ? start : end, along ? end : start);
 }
 
-/// Lines end, carry on from the slab above, or begin.
-void startSlab() {
-    uint left = 0u;
+void noteEvent(uint i, uint key, uint event) {
+    if (noted[notedAt(key, i)] >> 8 == key) return;
+    noted[notedAt(key, i)] = 256u * key + event;
+    x_middles[i] = localX(frame, pointFrom(events[eventAt(event)].point));
+}
+
+void noteEvents(uint key) {
+    for (; leaf.next_event < leaf.events; ++leaf.next_event, ++spent) {
+        uint e = leaf.next_event;
+        if (events[eventAt(e)].slab > key) break;
+        if (events[eventAt(e)].slab < key) continue;
+        noteEvent(events[eventAt(e)].p, key, e);
+        noteEvent(events[eventAt(e)].q, key, e);
+    }
+}
+
+/// A line takes its place among those left of it; they were nearly sorted in the slab above.
+void place(uint i, uint count) {
+    double x = x_middles[i];
+    uint j = count;
+    for (; j > 0u; --j, ++spent) {
+        double d = x_order[j - 1u] - x;
+        unsure = unsure || abs(d) <= kUnsure;
+        if (d <= 0.0lf) break;
+        x_order[j] = x_order[j - 1u];
+        order[j] = order[j - 1u];
+    }
+    x_order[j] = x;
+    order[j] = i;
+}
+
+/// Lines end, carry on from the slab above, or begin; then the order at the slab's middle.
+void locate(uint slab) {
+    noteEvents(slab + 1u);
+    uint count = 0u;
     for (uint k = 0u; k < leaf.order; ++k, ++spent) {
-        uint i = ordered_line(k);
-        tracks[lineAt(i)].x_top = tracks[lineAt(i)].x_bottom;
-        tracks[lineAt(i)].top = tracks[lineAt(i)].bottom;
-        tracks[lineAt(i)].bottom_known = 0u;
-        bool ends = keyEqual(keyFrom(lines[lineAt(i)].in1), top_key);
-        if (ends) closePiece(i, pointFrom(lines[lineAt(i)].exit));
-        if (!ends) words[wordAt(kWordOrder + left++)] = i;
+        arrived[count] = order[k];
+        if (exitOf(spans[order[k]]) != slab) ++count;
     }
-    leaf.order = left;
-    while (leaf.next_entry < leaf.entries) {
-        uint i = words[wordAt(kWordEntry + leaf.next_entry)];
-        if (keyLess(top_key, keyFrom(lines[lineAt(i)].in0))) break;
-        ++leaf.next_entry;
+    while (leaf.next_entry < leaf.entries && enterOf(spans[entry_line[leaf.next_entry]]) <= slab) {
+        arrived[count++] = entry_line[leaf.next_entry++];
         ++spent;
-        tracks[lineAt(i)].top = lines[lineAt(i)].enter;
-        tracks[lineAt(i)].x_top = localX(frame, pointFrom(lines[lineAt(i)].enter));
-        tracks[lineAt(i)].bottom_known = 0u;  // an event where the line begins is its top, not its bottom
-        words[wordAt(kWordOrder + leaf.order++)] = i;
     }
-}
-
-void noteEvent(uint i, double point[4]) {
-    if (tracks[lineAt(i)].bottom_known != 0u) return;
-    tracks[lineAt(i)].bottom = point;
-    tracks[lineAt(i)].bottom_known = 1u;
+    unsure = false;
+    joined = uint64_t(0u);
+    leaf.order = count;
+    for (uint k = 0u; k < count; ++k, spent += 2u) {
+        uint i = arrived[k];
+        double x_top = enterOf(spans[i]) == slab ? enter_x[i] : x_ends[i], x_bottom = xAt(i, bottom_y);
+        if (noted[notedAt(slab + 1u, i)] >> 8 == slab + 1u) x_bottom = x_middles[i];
+        if (exitOf(spans[i]) == slab + 1u) x_bottom = exit_x[i];
+        x_ends[i] = x_bottom;
+        x_middles[i] = 0.5lf * (x_top + x_bottom);
+        place(i, k);
+    }
 }
 
 /// -1, 0 or 1 as line p runs left of, on or right of line q in the slab.
 int compare(uint p, uint q) {
-    double d = tracks[lineAt(p)].x_mid - tracks[lineAt(q)].x_mid;
-    FinePoint p0 = pointFrom(tracks[lineAt(p)].top), q0 = pointFrom(tracks[lineAt(q)].top);
-    FinePoint p1 = pointFrom(tracks[lineAt(p)].bottom), q1 = pointFrom(tracks[lineAt(q)].bottom);
-    double fine = ((p0.grid.x - q0.grid.x) + (p1.grid.x - q1.grid.x)) + ((p0.rest.x - q0.rest.x) + (p1.rest.x - q1.rest.x));
+    double d = x_middles[p] - x_middles[q];
+    GpuTrack s = tracks[lineAt(p)], t = tracks[lineAt(q)];
+    double fine = ((s.grid[0] - t.grid[0]) + (s.grid[1] - t.grid[1])) + ((s.rest[0] - t.rest[0]) + (s.rest[1] - t.rest[1]));
     if (abs(d) > kUnsure) return d > 0.0lf ? 1 : -1;
     return abs(fine) <= kSame ? 0 : (fine > 0.0lf ? 1 : -1);
 }
 
-/// Points at the slab's bottom, then the order at its middle.
-void locate() {
-    while (leaf.next_event < leaf.events && keyLess(keyFrom(events[eventAt(leaf.next_event)].key), bottom_key)) {
-        ++leaf.next_event;
-        ++spent;
+/// The order again, by canonical points where doubles leave it open; which places hold one line's, and which of their
+/// lines is labelled.
+void locateFinely() {
+    uint count = unsure ? leaf.order : 0u;
+    for (uint k = 0u; k < count; ++k, ++spent) {
+        uint i = arrived[k];
+        FinePoint top = topPoint(i), bottom = bottomPoint(i);
+        tracks[lineAt(i)].grid = double[2](top.grid.x, bottom.grid.x);
+        tracks[lineAt(i)].rest = double[2](top.rest.x, bottom.rest.x);
     }
-    for (uint e = leaf.next_event; e < leaf.events; ++e, ++spent) {
-        GpuEvent event = events[eventAt(e)];
-        if (!keyEqual(keyFrom(event.key), bottom_key)) break;
-        noteEvent(event.p, event.point);
-        noteEvent(event.q, event.point);
+    for (uint k = 0u; k < count; ++k, spent += 2u) {
+        uint i = arrived[k], j = k;
+        for (; j > 0u && compare(order[j - 1u], i) > 0; --j, ++spent) order[j] = order[j - 1u];
+        order[j] = i;
     }
-    for (uint k = 0u; k < leaf.order; ++k, ++spent) {
-        uint i = ordered_line(k);
-        bool ends = keyEqual(keyFrom(lines[lineAt(i)].in1), bottom_key);
-        bool known = tracks[lineAt(i)].bottom_known != 0u || ends;
-        FinePoint bottom = pointAtY(carrierFrom(lines[lineAt(i)]), bottom_y);
-        double x_bottom = xAt(i, bottom_y);
-        if (known) {
-            bottom = pointFrom(tracks[lineAt(i)].bottom);
-            if (ends) bottom = pointFrom(lines[lineAt(i)].exit);
-            x_bottom = localX(frame, bottom);
+    uint first = 0u;
+    for (uint k = 0u; k < count; ++k, ++spent) {
+        uint i = order[k], chosen = i;
+        x_order[k] = x_middles[i];
+        if (k > 0u && compare(i, first) == 0) {
+            uint best_line = chosen_at[k - 1u];
+            LineRef ref = LineRef(lines[lineAt(i)].line_i, lines[lineAt(i)].line_j);
+            LineRef best = LineRef(lines[lineAt(best_line)].line_i, lines[lineAt(best_line)].line_j);
+            bool ref_edge = ref.j >= kFirstEdge, best_edge = best.j >= kFirstEdge;
+            chosen = (ref_edge != best_edge ? ref_edge : refBefore(ref, best)) ? i : best_line;
+            joined |= bitOf(k);
+        } else {
+            first = i;
         }
-        tracks[lineAt(i)].bottom = pointTo(bottom);
-        tracks[lineAt(i)].x_bottom = x_bottom;
-        tracks[lineAt(i)].x_mid = 0.5lf * (tracks[lineAt(i)].x_top + x_bottom);
-    }
-    for (uint k = 1u; k < leaf.order; ++k, spent += 2u) {
-        uint i = ordered_line(k), j = k;
-        for (; j > 0u && compare(ordered_line(j - 1u), i) > 0; --j, ++spent)
-            words[wordAt(kWordOrder + j)] = ordered_line(j - 1u);
-        words[wordAt(kWordOrder + j)] = i;
+        chosen_at[k] = chosen;
     }
 }
 
 /// Half the sum of a line's abscissae at the slab's ends, or of a border's, from the anchor.
 dd exactMiddle(uint line, double border_grid) {
-    uint i = line == kBorderLine ? 0u : line;
-    dd sum = ddAdd(offsetFrom(xOf(pointFrom(tracks[lineAt(i)].top)), push.anchor_x),
-                   offsetFrom(xOf(pointFrom(tracks[lineAt(i)].bottom)), push.anchor_x));
     if (line == kBorderLine) return offsetFrom(border(border_grid), push.anchor_x);
+    dd sum = ddAdd(offsetFrom(xOf(topPoint(line)), push.anchor_x), offsetFrom(xOf(bottomPoint(line)), push.anchor_x));
     return dd(0.5lf * sum.hi, 0.5lf * sum.lo);
 }
 
 /// Decided at the canonical middle, which knows nothing of the cell's frame.
 bool exactlyInFront(LocalPlane p, LocalPlane q, uint left, uint right) {
-    if (!kExact || spent + kExactLoops > 2u * kExactBudget) {
+    if (!kExact || spent + kExactLoops > 2u * loopBudget()) {
         undecided = true;
         return false;
     }
     ++leaf.compared_exactly;
     spent += kExactLoops;
-    dd x = ddAdd(exactMiddle(left, frame.cell.min.x), exactMiddle(right, frame.cell.max.x));
+    dd x = ddAdd(exactMiddle(left == kBorderLine ? left : order[left], frame.cell.min.x), exactMiddle(right == kBorderLine ? right : order[right], frame.cell.max.x));
     dd y = ddAdd(offsetFrom(top_y, push.anchor_y), offsetFrom(bottom_y, push.anchor_y));
     int sign = depthDifferenceSign(planeAt(p.plane), planeAt(q.plane), dd(0.5lf * x.hi, 0.5lf * x.lo),
                                    dd(0.5lf * y.hi, 0.5lf * y.lo));
     return sign != 0 ? sign > 0 : p.owner < q.owner;
 }
 
+/// The owner seen between the lines of two places, or the cell's borders.
 uint seen(uint left, uint right) {
-    double x0 = left == kBorderLine ? (frame.cell.min.x - frame.origin.x) + border(0.0lf).rest : tracks[lineAt(left)].x_mid;
-    double x1 =
-        right == kBorderLine ? (frame.cell.max.x - frame.origin.x) + border(0.0lf).rest : tracks[lineAt(right)].x_mid;
+    double x0 = left == kBorderLine ? (frame.cell.min.x - frame.origin.x) + border(0.0lf).rest : x_order[left];
+    double x1 = right == kBorderLine ? (frame.cell.max.x - frame.origin.x) + border(0.0lf).rest : x_order[right];
     double x = 0.5lf * (x0 + x1);
     bool any_seen = false;
     LocalPlane best = LocalPlane(0.0lf, 0.0lf, 0.0lf, 0.0lf, 0u, kBackground);
     for (uint bits = mask_bits; bits != 0u; bits &= bits - 1u, spent += kExact ? 8u : 1u) {
-        LocalPlane p = localPlaneAt(uint(findLSB(bits)));
+        LocalPlane p = local_plane[findLSB(bits)];
         bool nearer = true;
         if (any_seen) {
             int order_now = filteredOrder(p, best, x, y_mid);
@@ -180,68 +241,74 @@ uint seen(uint left, uint right) {
     return best.owner;
 }
 
+/// What covers the slab's left end.
+void startMask(uint slab) {
+    mask_bits = 0u;
+    for (uint64_t bits = left_lines; bits != uint64_t(0u); bits &= bits - uint64_t(1u), ++spent) {
+        uint i = lowest(bits), span = spans[i];
+        bool before = beginOf(span) <= slab && slab < enterOf(span), after = exitOf(span) <= slab && slab < endOf(span);
+        if (before || after) mask_bits ^= bounds[i];
+    }
+}
+
+void addBound(uint slab, uint line, uint before, uint after) {
+    uint at = profileAt(slab) + below_count, above = profileAt(slab + 1u) + below_count;
+    same_profiles = same_profiles && below_count < leaf.above_count && profile_line[above] == line && profile_owner[above] == after;
+    profile_line[at] = line;
+    profile_owner[at] = after;
+    ++below_count;
+    bool same = holds(open_lines, line) && left_owner[line] == before && right_owner[line] == after;
+    if (!same) relabelled |= bitOf(line);
+    labelled |= bitOf(line);
+    new_left[line] = before;
+    new_right[line] = after;
+}
+
 /// Walks the slab's middle from left to right; labels the lines where the owner changes.
 void sweep(uint slab) {
-    mask_bits = 0u;
-    for (uint i = 0u; i < leaf.lines; ++i, ++spent) {
-        GpuLine line = lines[lineAt(i)];
-        if (line.side_before >= 0 && line.side_after >= 0) continue;
-        if (keyLess(top_key, keyFrom(line.y0)) || !keyLess(top_key, keyFrom(line.y1))) continue;
-        int side = !keyLess(top_key, keyFrom(line.in1)) ? line.side_after
-                                                        : (keyLess(top_key, keyFrom(line.in0)) ? line.side_before : 0);
-        if (side < 0) mask_bits ^= line.bounds;
-    }
+    startMask(slab);
     y_mid = 0.5lf * (localY(top_y) + localY(bottom_y));
-    uint owner = 0u, first = kBorderLine, k = 0u;
+    labelled = relabelled = uint64_t(0u);
     below_count = 0u;
-    // The first turn asks what is seen at the left border, each other one passes the lines of one place.
-    for (uint turn = 0u; turn == 0u || k < leaf.order; ++turn, spent += 3u) {
-        uint chosen = kBorderLine;
+    uint owner = 0u, first = kBorderLine;
+    // The first turn asks what is seen at the left border, each other one passes a line.
+    for (uint turn = 0u; turn <= leaf.order; ++turn, spent += 2u) {
+        uint k = turn - 1u;
         if (turn > 0u) {
-            first = chosen = ordered_line(k);
-            for (; k < leaf.order; ++k, ++spent) {
-                uint i = ordered_line(k);
-                if (i != first && compare(i, first) != 0) break;
-                mask_bits ^= lines[lineAt(i)].bounds;
-                LineRef ref = LineRef(lines[lineAt(i)].line_i, lines[lineAt(i)].line_j);
-                LineRef best = LineRef(lines[lineAt(chosen)].line_i, lines[lineAt(chosen)].line_j);
-                bool ref_edge = ref.j >= kFirstEdge, best_edge = best.j >= kFirstEdge;
-                if (ref_edge != best_edge ? ref_edge : refBefore(ref, best)) chosen = i;
-            }
+            mask_bits ^= bounds[order[k]];
+            if (!holds(joined, k)) first = k;
         }
-        uint after = seen(first, k < leaf.order ? ordered_line(k) : kBorderLine);
+        bool more = turn < leaf.order && holds(joined, turn);
+        if (more) continue;
+        uint after = seen(first, turn < leaf.order ? turn : kBorderLine);
         if (turn == 0u) {
             below_first = owner = after;
+            same_profiles = below_first == leaf.above_first;
             continue;
         }
         if (after == owner) continue;
-        tracks[lineAt(chosen)].labelled_in = slab;
-        tracks[lineAt(chosen)].new_left = owner;
-        tracks[lineAt(chosen)].new_right = after;
-        words[wordAt(kWordBelow + 2u * below_count)] = chosen;
-        words[wordAt(kWordBelow + 2u * below_count + 1u)] = after;
-        ++below_count;
+        addBound(slab, unsure ? chosen_at[k] : order[k], owner, after);
         owner = after;
     }
+    same_profiles = same_profiles && below_count == leaf.above_count;
 }
 
-void updatePieces(uint slab) {
-    for (uint k = 0u; k < leaf.order; ++k, ++spent) {
-        uint i = ordered_line(k);
-        GpuTrack t = tracks[lineAt(i)];
-        bool labelled = t.labelled_in == slab;
-        if (t.is_open != 0u && labelled && t.left == t.new_left && t.right == t.new_right) continue;
-        if (t.is_open == 0u && !labelled) continue;
-        closePiece(i, pointFrom(t.top));
-        if (!labelled) continue;
-        tracks[lineAt(i)].is_open = 1u;
-        tracks[lineAt(i)].left = t.new_left;
-        tracks[lineAt(i)].right = t.new_right;
-        tracks[lineAt(i)].start = t.top;
+/// Pieces end where lines end or their owners change, and begin with their new owners.
+void updatePieces() {
+    uint64_t changed = (open_lines & ~labelled) | relabelled;
+    for (uint64_t bits = changed; bits != uint64_t(0u); bits &= bits - uint64_t(1u), ++spent) {
+        uint i = lowest(bits);
+        FinePoint top = topPoint(i);
+        if (holds(open_lines, i)) closePiece(i, top);
+        if (!holds(labelled, i)) continue;
+        left_owner[i] = new_left[i];
+        right_owner[i] = new_right[i];
+        tracks[lineAt(i)].start = pointTo(top);
     }
+    open_lines = labelled;
 }
 
-void emitRows() {
+void emitRows(uint slab) {
     for (int row = int(floor(top_y.grid - 0.5lf)); double(row) + 0.5lf <= bottom_y.grid; ++row, spent += 2u) {
         FineCoordinate y = sampleRow(row);
         OrderKey key = orderKey(y, frame.origin.y);
@@ -250,81 +317,83 @@ void emitRows() {
         double reached = frame.cell.min.x + border(0.0lf).rest;  // rounding must not exchange the ends of a thin owner
         addRow(at, reached, row, below_first, tag);
         for (uint b = 0u; b < below_count; ++b, ++spent) {
-            reached = max(reached, frame.origin.x + xAt(words[wordAt(kWordBelow + 2u * b)], y));
-            addRow(at + 1u + b, reached, row, words[wordAt(kWordBelow + 2u * b + 1u)], tag);
+            reached = max(reached, frame.origin.x + xAt(profile_line[profileAt(slab) + b], y));
+            addRow(at + 1u + b, reached, row, profile_owner[profileAt(slab) + b], tag);
         }
     }
 }
 
-/// Whether two profiles change owners at the same lines.
-bool sameProfiles() {
-    if (leaf.above_first != below_first || leaf.above_count != below_count) return false;
-    bool same = true;
-    for (uint k = 0u; k < 2u * below_count; ++k, ++spent)
-        same = same && words[wordAt(kWordAbove + k)] == words[wordAt(kWordBelow + k)];
-    return same;
-}
-
 uint break_count;
+double break_x[kLeafBreaks], break_rest[kLeafBreaks];
+int break_above[kLeafBreaks];
+uint break_before[kLeafBreaks], break_after[kLeafBreaks], break_order[kLeafBreaks];
 void addBreak(FineCoordinate x, int above, uint before, uint after) {
-    if (break_count < kLeafBreaks)
-        breaks[breakAt(break_count)] = GpuBreak(double[2](x.grid, x.rest), above, before, after, 0u);
+    if (break_count < kLeafBreaks) {
+        break_x[break_count] = x.grid;
+        break_rest[break_count] = x.rest;
+        break_above[break_count] = above;
+        break_before[break_count] = before;
+        break_after[break_count] = after;
+        break_order[break_count] = break_count;
+    }
     ++break_count;
 }
-FineCoordinate breakX(uint i) { return FineCoordinate(breaks[breakAt(i)].x[0], breaks[breakAt(i)].x[1]); }
+FineCoordinate breakX(uint place) { return FineCoordinate(break_x[break_order[place]], break_rest[break_order[place]]); }
 
-void addBreaks(uint profile, uint first, uint count, int sign) {
-    uint before = first;
-    for (uint k = 0u; k < count; ++k, ++spent) {
-        uint after = words[wordAt(profile + 2u * k + 1u)];
-        addBreak(xOf(pointFrom(tracks[lineAt(words[wordAt(profile + 2u * k)])].top)), sign, before, after);
+/// Of the profile above the slab, then of the one in it.
+void addBreaks(uint slab) {
+    uint before = leaf.above_first;
+    for (uint k = 0u; k < leaf.above_count + below_count; ++k, ++spent) {
+        bool above = k < leaf.above_count;
+        if (k == leaf.above_count) before = below_first;
+        uint at = above ? profileAt(slab + 1u) + k : profileAt(slab) + (k - leaf.above_count), after = profile_owner[at];
+        addBreak(xOf(topPoint(profile_line[at])), above ? 1 : -1, before, after);
         before = after;
     }
 }
 
 /// Between the cell's borders by ascending abscissa.
-void collectBreaks(uint first) {
+void collectBreaks(uint slab, uint first) {
     break_count = 0u;
     addBreak(border(frame.cell.min.x), 0, kBackground, kBackground);
     for (uint h = first; h < leaf.next_horizontal; ++h, ++spent) {
         addBreak(xOf(pointFrom(horizontals[horizontalAt(h)].enter)), 0, kBackground, kBackground);
         addBreak(xOf(pointFrom(horizontals[horizontalAt(h)].exit)), 0, kBackground, kBackground);
     }
-    addBreaks(kWordAbove, leaf.above_first, leaf.above_count, 1);
-    addBreaks(kWordBelow, below_first, below_count, -1);
+    addBreaks(slab);
     uint count = min(break_count, kLeafBreaks);
     for (uint i = 2u; i < count; ++i, spent += 2u) {
-        GpuBreak item = breaks[breakAt(i)];
-        FineCoordinate x = FineCoordinate(item.x[0], item.x[1]);
+        FineCoordinate x = FineCoordinate(break_x[i], break_rest[i]);
         uint j = i;
-        for (; j > 1u && difference(x, breakX(j - 1u)) < 0.0lf; --j, ++spent) breaks[breakAt(j)] = breaks[breakAt(j - 1u)];
-        breaks[breakAt(j)] = item;
+        for (; j > 1u && difference(x, breakX(j - 1u)) < 0.0lf; --j, ++spent) break_order[j] = break_order[j - 1u];
+        break_order[j] = i;
     }
     addBreak(border(frame.cell.max.x), 0, kBackground, kBackground);
 }
 
 /// How often each owner lies above an ordinate, less how often below.
 uint balance_count;
+uint balance_owner[kLeafOwners];
+int balances[kLeafOwners];
 void addBalance(uint owner, int by) {
     if (by == 0) return;
     uint at = 0u;
-    while (at < balance_count && words[wordAt(kWordBalance + 2u * at)] != owner) {
+    while (at < balance_count && balance_owner[at] != owner) {
         ++at;
         ++spent;
     }
     bool known = at < balance_count;
-    int sum = (known ? int(words[wordAt(kWordBalance + 2u * at + 1u)]) : 0) + by;
-    words[wordAt(kWordBalance + 2u * at)] = owner;
-    words[wordAt(kWordBalance + 2u * at + 1u)] = uint(sum);
+    int sum = (known ? balances[at] : 0) + by;
+    balance_owner[at] = owner;
+    balances[at] = sum;
     if (!known) ++balance_count;
     if (sum != 0) return;
     --balance_count;
     for (; at < balance_count; ++at, ++spent) {
-        words[wordAt(kWordBalance + 2u * at)] = words[wordAt(kWordBalance + 2u * at + 2u)];
-        words[wordAt(kWordBalance + 2u * at + 1u)] = words[wordAt(kWordBalance + 2u * at + 3u)];
+        balance_owner[at] = balance_owner[at + 1u];
+        balances[at] = balances[at + 1u];
     }
 }
-int balanceOf(uint at) { return int(words[wordAt(kWordBalance + 2u * at + 1u)]); }
 
 void emitHorizontal(FineCoordinate from, FineCoordinate to, uint over, uint under, uint first) {
     if (difference(from, to) > 0.0lf) {
@@ -357,39 +426,38 @@ void emitPairs(FineCoordinate from, FineCoordinate to, uint first) {
     int p_left = 0, q_left = 0;
     for (;; spent += 4u) {
         while (p_left == 0 && p < balance_count) {
-            p_left = max(0, balanceOf(p++));
+            p_left = max(0, balances[p++]);
             ++spent;
         }
         while (q_left == 0 && q < balance_count) {
-            q_left = max(0, -balanceOf(q++));
+            q_left = max(0, -balances[q++]);
             ++spent;
         }
         if (p_left == 0 || q_left == 0) break;
         --p_left;
         --q_left;
-        emitHorizontal(from, to, words[wordAt(kWordBalance + 2u * (p - 1u))], words[wordAt(kWordBalance + 2u * (q - 1u))],
-                       first);
+        emitHorizontal(from, to, balance_owner[p - 1u], balance_owner[q - 1u], first);
     }
 }
 
 /// Owners change across an ordinate along horizontal lines, or along closing pieces. [E16]
-void emitHorizontals() {
+void emitHorizontals(uint slab) {
     uint first = leaf.next_horizontal;
     while (leaf.next_horizontal < leaf.horizontals &&
            keyEqual(keyFrom(horizontals[horizontalAt(leaf.next_horizontal)].in0), top_key)) {
         ++leaf.next_horizontal;
         ++spent;
     }
-    if (first == leaf.next_horizontal && sameProfiles()) return;
-    collectBreaks(first);
+    if (first == leaf.next_horizontal && same_profiles) return;
+    collectBreaks(slab, first);
     balance_count = 0u;
     addBalance(leaf.above_first, 1);
     addBalance(below_first, -1);
     for (uint i = 0u; i + 1u < min(break_count, kLeafBreaks); ++i, spent += 10u) {
-        GpuBreak here = breaks[breakAt(i)];
-        addBalance(here.after, here.above);
-        addBalance(here.before, -here.above);
-        FineCoordinate from = FineCoordinate(here.x[0], here.x[1]), to = breakX(i + 1u);
+        uint here = break_order[i];
+        addBalance(break_after[here], break_above[here]);
+        addBalance(break_before[here], -break_above[here]);
+        FineCoordinate from = breakX(i), to = breakX(i + 1u);
         if (balance_count == 0u || difference(from, to) == 0.0lf) continue;
         emitPairs(from, to, first);
     }
@@ -403,28 +471,79 @@ void readSlab(uint slab) {
     bottom_y = ordinateOf(high);
 }
 
-void keepProfile() {
-    for (uint k = 0u; k < 2u * below_count; ++k, ++spent) words[wordAt(kWordAbove + k)] = words[wordAt(kWordBelow + k)];
-    leaf.above_first = below_first;
-    leaf.above_count = below_count;
+/// The lines of a leaf, and what the dispatch before knew of them.
+void load() {
+    left_lines = open_lines = uint64_t(0u);
+    for (uint i = 0u; i < leaf.triangles; ++i, ++spent) local_plane[i] = localPlaneAt(i);
+    for (uint i = 0u; i < leaf.lines; ++i, ++spent) {
+        uint span = lines[lineAt(i)].span, last = leaf.keys - 1u;
+        uint begins = min(beginOf(span), last), enters = min(enterOf(span), last);
+        uint exits = min(exitOf(span), last), ends = min(endOf(span), last);
+        bool inside = enters < exits, passes_left = (span & kPassesLeft) != 0u;
+        if (!inside) enters = exits = ends;
+        if (inside ? lines[lineAt(i)].side_before >= 0 : !passes_left) begins = enters;
+        if (inside && lines[lineAt(i)].side_after >= 0) ends = exits;
+        spans[i] = begins | enters << 8 | exits << 16 | ends << 24;
+        if (begins < enters || exits < ends) left_lines |= bitOf(i);
+        bounds[i] = lines[lineAt(i)].bounds;
+        FinePoint enter = pointFrom(lines[lineAt(i)].enter);
+        enter_x[i] = localX(frame, enter);
+        enter_grid[i] = enter.grid.y;
+        enter_rest[i] = enter.rest.y;
+        exit_x[i] = localX(frame, pointFrom(lines[lineAt(i)].exit));
+        slopes[i] = lines[lineAt(i)].slope;
+        entry_line[i] = words[wordAt(kWordEntry + i)];
+        noted[i] = noted[kLeafLines + i] = 0xffffffffu;
+    }
+    for (uint k = 0u; k < leaf.order; ++k, ++spent) {
+        uint i = words[wordAt(kWordOrder + k)];
+        order[k] = i;
+        x_ends[i] = tracks[lineAt(i)].x;
+        noted[notedAt(leaf.slab, i)] = tracks[lineAt(i)].noted;
+        if (tracks[lineAt(i)].is_open != 0u) open_lines |= bitOf(i);
+        left_owner[i] = tracks[lineAt(i)].left;
+        right_owner[i] = tracks[lineAt(i)].right;
+    }
+    for (uint k = 0u; k < leaf.above_count; ++k, ++spent) {
+        profile_line[profileAt(leaf.slab + 1u) + k] = words[wordAt(kWordAbove + 2u * k)];
+        profile_owner[profileAt(leaf.slab + 1u) + k] = words[wordAt(kWordAbove + 2u * k + 1u)];
+    }
+}
+
+void store() {
+    uint running = leaf.slab + 1u < leaf.keys ? 1u : 0u;
+    for (uint k = 0u; k < leaf.order * running; ++k, ++spent) {
+        uint i = order[k];
+        words[wordAt(kWordOrder + k)] = i;
+        tracks[lineAt(i)].x = x_ends[i];
+        tracks[lineAt(i)].noted = noted[notedAt(leaf.slab, i)];
+        tracks[lineAt(i)].is_open = holds(open_lines, i) ? 1u : 0u;
+        tracks[lineAt(i)].left = left_owner[i];
+        tracks[lineAt(i)].right = right_owner[i];
+    }
+    for (uint k = 0u; k < leaf.above_count * running; ++k, ++spent) {
+        words[wordAt(kWordAbove + 2u * k)] = profile_line[profileAt(leaf.slab + 1u) + k];
+        words[wordAt(kWordAbove + 2u * k + 1u)] = profile_owner[profileAt(leaf.slab + 1u) + k];
+    }
 }
 
 void main() {
     if (!openLeaf()) return;
+    load();
     bool fits = true;
-    uint budget = kExact ? kExactBudget : kBudget;
-    for (; leaf.slab + 1u < leaf.keys && spent < budget && fits; ++leaf.slab, spent += 50u) {
+    for (; leaf.slab + 1u < leaf.keys && spent < loopBudget() && fits; ++leaf.slab, spent += 50u) {
         readSlab(leaf.slab);
-        startSlab();
-        locate();
+        locate(leaf.slab);
+        locateFinely();
         sweep(leaf.slab);
         if (undecided) break;
         break_count = 0u;
-        updatePieces(leaf.slab);
-        if (leaf.slab > 0u) emitHorizontals();
+        updatePieces();
+        if (leaf.slab > 0u) emitHorizontals(leaf.slab);
         fits = break_count <= kLeafBreaks;
-        emitRows();
-        keepProfile();
+        emitRows(leaf.slab);
+        leaf.above_first = below_first;
+        leaf.above_count = below_count;
     }
     if (undecided || !fits) {
         if (fits && !kExact) {
@@ -436,7 +555,8 @@ void main() {
     } else if (leaf.slab + 1u < leaf.keys) {
         atomicAdd(status.unfinished, 1u);
     } else {
-        for (uint k = 0u; k < leaf.order; ++k) closePiece(ordered_line(k), pointFrom(lines[lineAt(ordered_line(k))].exit));
+        for (uint64_t bits = open_lines; bits != uint64_t(0u); bits &= bits - uint64_t(1u), ++spent)
+            closePiece(lowest(bits), pointFrom(lines[lineAt(lowest(bits))].exit));
         leaf.state = kLeafDone;
         leaf_cells[2u * status.cells_room + push.first + leaf_slot] = 1u;
         atomicAdd(status.swept, 1u);
@@ -445,6 +565,7 @@ void main() {
         atomicAdd(status.exact_depth, leaf.compared_exactly);
         atomicAdd(status.closings, leaf.closings);
     }
+    store();
     countLoops();
     leaves[leaf_slot] = leaf;
 }

@@ -30,7 +30,7 @@ struct DeviceTraits {
 };
 
 /// Storage buffers that the pipeline's hungriest stage, visibility, binds.
-inline constexpr std::uint32_t kMostBindings = 24;
+inline constexpr std::uint32_t kMostBindings = 23;
 
 /// All devices of this machine, real GPUs first; empty where there is no Vulkan.
 std::vector<DeviceTraits> listDevices();

@@ -99,7 +99,7 @@ class VisibilityPasses::Work {
     const Buffer *triangles_ = nullptr, *planes_ = nullptr, *offsets_ = nullptr, *ids_ = nullptr;
     std::optional<Buffer> see_through_, cells_, kept_, leaf_cells_, status_, pieces_, rows_, handed_, table_,
         crossing_list_, leaves_, leaf_lines_, horizontals_, tracks_, events_, key_list_, items_,
-        local_planes_, breaks_, words_;
+        local_planes_, words_;
 };
 
 VisibilityPasses::Work::Work(const Device& device)
@@ -146,7 +146,6 @@ void VisibilityPasses::Work::makeBuffers(const VisibilityInput& input, const Roo
     grown(key_list_, "keys", kLeafBatch * kLeafKeys * sizeof(GpuKey));
     grown(items_, "key items", kLeafBatch * kLeafKeyItems * sizeof(GpuKey));
     grown(local_planes_, "local planes", kLeafBatch * kLeafTriangles * sizeof(GpuLocalPlane));
-    grown(breaks_, "breaks", kLeafBatch * kLeafBreaks * sizeof(GpuBreak));
     grown(words_, "leaf words", kLeafBatch * kLeafWords * 4);
     std::ranges::fill(leaf_cells_->view<std::uint32_t>(4 * rooms.cells), 0u);
     status() = {};
@@ -166,7 +165,7 @@ void VisibilityPasses::Work::submit(Record&& record) {
                                               &*status_,      &*pieces_,        &*rows_,   &*handed_,
                                               &*table_,       &*crossing_list_, &*leaves_, &*leaf_lines_,
                                               &*horizontals_, &*tracks_,        &*events_, &*key_list_,
-                                              &*items_,       &*local_planes_,  &*breaks_, &*words_})
+                                              &*items_,       &*local_planes_,  &*words_})
         bindings_.emplace_back(*buffer);
     status_->view<GpuVisibilityStatus>(1)[0] = state_;
     const auto start = std::chrono::steady_clock::now();
@@ -347,7 +346,9 @@ void VisibilityPasses::Work::run(const Buffer& triangles, const Buffer& planes, 
                   (input.scene.see_through.empty() ? 0 : kSomeSeeThrough);
     push_.max_triangles = static_cast<std::uint32_t>(options.max_triangles);
     push_.min_cell_px = options.min_cell_px;
-    push_.sheet_small = kSheetSmall, push_.sheet_most = kSheetTriangles;
+    push_.sheet_small = device_.traits().real_gpu ? kSheetTriangles : kSheetSmall;
+    push_.sheet_most = kSheetTriangles;
+    push_.loop_turns = device_.traits().loop_turns;
     report = {};
     const std::size_t total = offsets.read<std::uint32_t>(1, input.grid.size() * sizeof(std::uint32_t))[0];
     Rooms rooms{4 * input.grid.size() + 4096, 4 * total + 4096, 3 * total + 8192,

@@ -33,7 +33,6 @@ layout(std430, binding = kVisEvents) buffer Events { GpuEvent events[]; };
 layout(std430, binding = kVisKeys) buffer Keys { GpuKey keys[]; };
 layout(std430, binding = kVisItems) buffer Items { GpuKey items[]; };
 layout(std430, binding = kVisLocalPlanes) buffer LocalPlanes { GpuLocalPlane local_planes[]; };
-layout(std430, binding = kVisBreaks) buffer Breaks { GpuBreak breaks[]; };
 layout(std430, binding = kVisWords) buffer Words { uint words[]; };
 layout(push_constant) uniform Push { VisibilityPush push; };
 
@@ -89,8 +88,11 @@ LeafLine emptyLine(Carrier carrier) {
 }
 /// Turns of loops, one more for each loop that is met: also a loop that is passed by takes one.
 uint spent = 0u;
+uint loopLimit() { return gl_WorkGroupSize.x == 1u ? push.loop_turns : push.loop_turns / kTogether; }
+/// After so many an invocation stops, with room for what it has begun.
+uint loopBudget() { return loopLimit() / 8u * 3u; }
 void countLoops() {
-    if (spent >= (gl_WorkGroupSize.x == 1u ? kLoopsAlone : kLoopsTogether)) atomicAdd(status.overruns, 1u);
+    if (spent >= loopLimit()) atomicAdd(status.overruns, 1u);
 }
 
 FineCoordinate sampleRow(int row) { return FineCoordinate(double(row) + 0.5lf, 0.0lf); }

@@ -26,38 +26,32 @@ struct GpuLine {
     double a[2], b[2], A[2], B[2], C[2];
     double y0[2], y1[2], in0[2], in1[2];  // OrderKeys; of a horizontal in0 is its key
     double enter[4], exit[4], slope, x_low, x_high;
-    uint key_low, key_high, line_i, line_j, bounds, pad;
+    uint key_low, key_high, line_i, line_j, bounds, span;  // span: numbers of keys, see visibility_keys.comp
     int side_before, side_after;
 };
 
-/// analytic/slab_sweep.cpp: Track.
+/// analytic/slab_sweep.cpp: Track; what a dispatch leaves to the next, and abscissae at the slab's top and bottom.
 struct GpuTrack {
-    double x_top, x_bottom, x_mid, top[4], bottom[4], start[4];
-    uint bottom_known, is_open, left, right, labelled_in, new_left, new_right, pad;
+    double x, grid[2], rest[2], start[4];
+    uint noted, is_open, left, right;
 };
 
 /// Where two lines of a leaf meet.
 struct GpuEvent {
     double key[2], point[4];
-    uint p, q;
+    uint p, q, slab, pad;  // slab: the number of its key
 };
 
-/// An OrderKey and its ordinate.
+/// An OrderKey and its ordinate; of an item that is sorted, whose it is.
 struct GpuKey {
     double key[2], y[2];
+    uint of, pad;
 };
 
 /// A depth plane about the leaf's origin.
 struct GpuLocalPlane {
     double a, b, c, error;
     uint plane, owner;
-};
-
-/// Where the owner above or below an ordinate changes.
-struct GpuBreak {
-    double x[2];
-    int above;
-    uint before, after, pad;
 };
 
 /// A row meets an edge of a sheet.
@@ -82,7 +76,7 @@ struct VisibilityPush {
     int x0_px, y0_px, columns, flags;
     uint first, count, max_triangles, sheet_small;
     double min_cell_px;
-    uint sheet_most, pad;
+    uint sheet_most, loop_turns;
 };
 
 /// Counters that the shaders share, and the room that the buffers have.
@@ -113,6 +107,9 @@ const uint kLeafDone = 1u;
 const uint kLeafHanded = 2u;
 const uint kLeafUndecided = 3u;  // a comparison of depths needs exact arithmetic
 
+/// In GpuLine::span of a line that does not run inside.
+const uint kPassesLeft = 256u;
+
 const uint kNoTag = 0xffffffffu;
 
 // Room for one leaf; what needs more is handed back.
@@ -123,12 +120,11 @@ const uint kLeafEvents = 200u;
 const uint kLeafKeyItems = 400u;
 const uint kLeafKeys = 256u;
 const uint kLeafBreaks = 64u;
-/// Words of a leaf: order, lines by entry, profiles above and below, balance, pairs; items' order twice.
+const uint kLeafOwners = 16u;  // its triangles' and the background, and one place to write beyond
+/// Words of a leaf: order, lines by entry, profile above, pairs; items' order twice.
 const uint kWordOrder = 0u;
 const uint kWordEntry = 48u;
 const uint kWordAbove = 96u;    // line, owner after it
-const uint kWordBelow = 192u;   // line, owner after it
-const uint kWordBalance = 288u; // owner, count
 const uint kWordItems = 352u;   // order of key items
 const uint kWordItems2 = 752u;
 const uint kWordPairs = 352u;   // candidate pairs, before keys are sorted
@@ -138,11 +134,10 @@ const uint kSheetTriangles = 500u;
 const uint kSheetSmall = 64u;
 /// A cell with more candidates is the host's.
 const uint kCellCandidates = 3000u;
-/// Loops of all invocations that run together, eight of them where the device is a program, are stopped after 65535,
-/// silently. Every shader counts its own, also those that others wait for: where one of eight has had as many as this,
-/// some may have been stopped.
-const uint kLoopsTogether = 8191u;
-const uint kLoopsAlone = 65535u;
+/// Where the device is a program (DeviceTraits::loop_turns), loops of all invocations that run together, eight of them,
+/// are stopped after so many turns, silently. Every shader counts its own, also those that others wait for: where one of
+/// them has had its share, some may have been stopped.
+const uint kTogether = 8u;
 
 // Bindings.
 const int kVisTriangles = 0;
@@ -167,6 +162,5 @@ const int kVisEvents = 18;
 const int kVisKeys = 19;
 const int kVisItems = 20;
 const int kVisLocalPlanes = 21;
-const int kVisBreaks = 22;
-const int kVisWords = 23;
-const int kVisBindings = 24;
+const int kVisWords = 22;
+const int kVisBindings = 23;

@@ -10,7 +10,6 @@ uint eventAt(uint i) { return leaf_slot * kLeafEvents + i; }
 uint keyAt(uint i) { return leaf_slot * kLeafKeys + i; }
 uint itemAt(uint i) { return leaf_slot * kLeafKeyItems + i; }
 uint planeSlot(uint i) { return leaf_slot * kLeafTriangles + i; }
-uint breakAt(uint i) { return leaf_slot * kLeafBreaks + i; }
 uint wordAt(uint i) { return leaf_slot * kLeafWords + i; }
 
 /// False where this invocation has no leaf to work on.

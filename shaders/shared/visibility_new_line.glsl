@@ -22,7 +22,7 @@ GpuLine newLine(LeafLine l, uint mark) {
     line.line_i = l.carrier.ref.i;
     line.line_j = l.carrier.ref.j;
     line.bounds = mark;
-    line.pad = 0u;
+    line.span = 0u;
     line.side_before = l.side_before;
     line.side_after = l.side_after;
     return line;
