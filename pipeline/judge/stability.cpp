@@ -180,6 +180,11 @@ std::vector<const StabilityCase*> chosenCases(const std::vector<std::string>& na
     return chosen;
 }
 
+bool withinBounds(const WeightErrors& e) {
+    return e.worst_of_bound <= 1.0 && e.ownership_errors == 0 && e.partition_defect == 0.0 &&
+           e.label_conflicts == 0;
+}
+
 }  // namespace
 
 double promisedBound(std::uint64_t terms, Precision precision) {
@@ -197,16 +202,11 @@ void judgeMap(const ScreenScene& scene, const std::vector<exact::Face>& faces, c
     row.map->add(compareMaps(scene, faces, map, box));
 }
 
-static bool keepsPromises(const WeightErrors& e) {
-    return e.worst_of_bound <= 1.0 && e.ownership_errors == 0 && e.partition_defect == 0.0 &&
-           e.label_conflicts == 0;
-}
-
 bool keepsPromises(const StabilityRow& r) {
     const bool placed = !r.projection || (r.projection->worst_of_bound <= 1.0 && r.projection->cracks == 0 &&
                                           r.projection->lost_areas == 0);
     const bool mapped = !r.map || r.map->good();
-    return placed && mapped && keepsPromises(static_cast<const WeightErrors&>(r)) && keepsPromises(r.fp32);
+    return placed && mapped && withinBounds(r) && withinBounds(r.fp32);
 }
 
 void checkCases(const StabilityOptions& options) {

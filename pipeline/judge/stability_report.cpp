@@ -49,7 +49,7 @@ Json mapJson(const std::optional<MapReport>& m) {
             {"max_area_share", m->max_area_share}};
 }
 
-Json floatJson(const WeightErrors& e) {
+Json errorsJson(const WeightErrors& e) {
     return {{"max_error", e.max_error},
             {"max_error_ulp", e.max_error_ulp},
             {"max_relative", e.max_relative},
@@ -62,28 +62,21 @@ Json floatJson(const WeightErrors& e) {
 }
 
 Json rowJson(const StabilityRow& r) {
-    return {{"case", r.case_name},
-            {"filter", r.filter},
-            {"condition", r.condition},
-            {"scenes", r.scenes},
-            {"weights", r.weights},
-            {"max_error", r.max_error},
-            {"max_error_ulp", r.max_error_ulp},
-            {"max_relative", r.max_relative},
-            {"bound", r.bound},
-            {"worst_of_bound", r.worst_of_bound},
-            {"ownership_errors", r.ownership_errors},
-            {"partition_defect", r.partition_defect},
-            {"label_conflicts", r.label_conflicts},
-            {"exact_depths", r.exact_depths},
-            {"fine_orders", r.fine_orders},
-            {"closings", r.closings},
-            {"seconds", r.seconds},
-            {"oracle_error", r.oracle_error},
-            {"fp32", floatJson(r.fp32)},
-            {"map", mapJson(r.map)},
-            {"map_left_out", r.map_left_out.empty() ? Json() : Json(r.map_left_out)},
-            {"projection", projectionJson(r.projection)}};
+    Json json{{"case", r.case_name},
+              {"filter", r.filter},
+              {"condition", r.condition},
+              {"scenes", r.scenes},
+              {"weights", r.weights}};
+    json.update(errorsJson(r));
+    json.update({{"exact_depths", r.exact_depths},
+                 {"fine_orders", r.fine_orders},
+                 {"closings", r.closings},
+                 {"oracle_error", r.oracle_error},
+                 {"fp32", errorsJson(r.fp32)},
+                 {"map", mapJson(r.map)},
+                 {"map_left_out", r.map_left_out.empty() ? Json() : Json(r.map_left_out)},
+                 {"projection", projectionJson(r.projection)}});
+    return json;
 }
 
 constexpr std::array kColors{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a",

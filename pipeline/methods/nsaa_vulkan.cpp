@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 
 #include "pipeline/composite.h"
+#include "pipeline/methods/box_halves.h"
 #include "pipeline/methods/nsaa_cpu.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/vulkan/blend.h"
@@ -226,7 +226,7 @@ class VulkanStages : public CpuStages {
                              [&](const PixelBox& strip) { weighStrip(frame, *lists, owners, strip); });
         }
         if (isSingleTile(area)) return weighStripOnHost(frame, input.map, owners, area);
-        for (const PixelBox& half : halves(area))
+        for (const PixelBox& half : halvesOf(area, kWeightTilePx))
             weighArea(frame, {input.map, input.classes, half, input.offset_px, input.on_device}, owners);
     }
 
@@ -241,25 +241,13 @@ class VulkanStages : public CpuStages {
         const auto entries = weights_.addTo(graph, lists, strip);
         if (!entries) {
             if (isSingleTile(strip)) return weighStripOnHost(frame, lists.input.map, owners, strip);
-            for (const PixelBox& half : halves(strip)) weighStrip(frame, lists, owners, half);
+            for (const PixelBox& half : halvesOf(strip, kWeightTilePx))
+                weighStrip(frame, lists, owners, half);
             return;
         }
         shadeAndBlend(frame, owners.alike.stacks, strip, graph, *entries, std::nullopt);
         if (frame.dump.active()) frame.dump.weights(readBack(graph, *entries, strip), owners.alike.stacks);
         bookStrip(frame, graph);
-    }
-
-    /// Whole weight tiles but for the end.
-    static std::array<PixelBox, 2> halves(const PixelBox& box) {
-        const auto middle = [](int from, int to) {
-            return from + ((to - from) / 2 + kWeightTilePx - 1) / kWeightTilePx * kWeightTilePx;
-        };
-        if (box.width() >= box.height()) {
-            const int x = middle(box.x0, box.x1);
-            return {PixelBox{box.x0, box.y0, x, box.y1}, PixelBox{x, box.y0, box.x1, box.y1}};
-        }
-        const int y = middle(box.y0, box.y1);
-        return {PixelBox{box.x0, box.y0, box.x1, y}, PixelBox{box.x0, y, box.x1, box.y1}};
     }
 
     struct EntryPoints {
@@ -318,11 +306,7 @@ class VulkanStages : public CpuStages {
 
     static Shade shadeOnHost(const NsaaFrame& frame, const LayerStacks& stacks, const PixelBox& box,
                              const PassGraph& graph, const ShadeEntries& entries, std::size_t e) {
-        const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
-        const auto offsets = graph[entries.offsets].read<std::uint32_t>(pixels + 1);
-        const auto after = std::upper_bound(offsets.begin(), offsets.end(), e);
-        const auto pixel = static_cast<std::size_t>(after - offsets.begin()) - 1;
-        const glm::dvec2 sample = pixelOf(box, pixel) + frame.offset();
+        const glm::dvec2 sample = pixelOf(box, pixelOfEntry(graph, entries.offsets, box, e)) + frame.offset();
         NsaaFrame::Offsets points;
         if (entries.points) {
             const auto ends = graph[*entries.point_ends].read<std::uint32_t>(e + 1);
@@ -374,17 +358,21 @@ class VulkanStages : public CpuStages {
 }  // namespace
 
 PixelReport pixelWeightsVulkan(const MethodInput& input, int x, int y) {
-    NsaaFrame frame(input);
-    VulkanStages stages(frame);
-    return frame.report(stages, x, y);
+    return withDeviceErrors([&] {
+        NsaaFrame frame(input);
+        VulkanStages stages(frame);
+        return frame.report(stages, x, y);
+    });
 }
 
 MethodResult runNsaaVulkan(const MethodSpec&, const MethodInput& input) {
-    NsaaFrame frame(input);
-    VulkanStages stages(frame);
-    MethodResult result = frame.render(stages);
-    stages.report(result);
-    return result;
+    return withDeviceErrors([&] {
+        NsaaFrame frame(input);
+        VulkanStages stages(frame);
+        MethodResult result = frame.render(stages);
+        stages.report(result);
+        return result;
+    });
 }
 
 }  // namespace edgewise

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <system_error>
 
 #include "pipeline/device_error.h"
 
@@ -171,9 +170,6 @@ MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const
         return entry.run_vulkan(spec, input);
     } catch (const DeviceError& error) {
         if (asked) throw;
-        why = error.what();
-    } catch (const std::system_error& error) {  // what Vulkan's own calls throw
-        if (asked) throw DeviceError(error.what());
         why = error.what();
     }
     MethodResult result = entry.run(spec, input);

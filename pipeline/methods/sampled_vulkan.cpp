@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "pipeline/composite.h"
+#include "pipeline/methods/box_halves.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/sampled_frame.h"
 #include "pipeline/plan.h"
@@ -56,15 +57,6 @@ std::optional<std::string> whyNotFiltered(const SampledFrame& frame, const Resol
     const PixelBox support = frame.windowOf({0, 0, 1, 1});
     if (!raster.fits(support.width(), support.height())) return "a pixel's support is larger than a target";
     return whyNotShaded(tables, traits);
-}
-
-PixelBox firstHalf(const PixelBox& box, PixelBox& rest) {
-    PixelBox half = rest = box;
-    if (box.height() >= box.width())
-        half.y1 = rest.y0 = box.y0 + box.height() / 2;
-    else
-        half.x1 = rest.x0 = box.x0 + box.width() / 2;
-    return half;
 }
 
 class VulkanSampledStages : public SampledStages {
@@ -136,10 +128,7 @@ class VulkanSampledStages : public SampledStages {
     }
 
     void renderHalves(SampledFrame& frame, const PixelBox& part) {
-        PixelBox rest;
-        const PixelBox half = firstHalf(part, rest);
-        render(frame, half);
-        render(frame, rest);
+        for (const PixelBox& half : halvesOf(part)) render(frame, half);
     }
 
     void filterOnHost(SampledFrame& frame, const PixelBox& part) {
@@ -158,10 +147,8 @@ class VulkanSampledStages : public SampledStages {
 
     void copyOwners(SampledFrame& frame, const PixelBox& window, const PixelBox& part, SampledOwners& out) {
         if (!raster_.fits(part.width(), part.height())) {
-            PixelBox rest;
-            const PixelBox half = firstHalf(part, rest);
-            copyOwners(frame, window, half, out);
-            return copyOwners(frame, window, rest, out);
+            for (const PixelBox& half : halvesOf(part)) copyOwners(frame, window, half, out);
+            return;
         }
         PassGraph graph(device_);
         const Resource samples =
@@ -272,9 +259,7 @@ class VulkanSampledStages : public SampledStages {
     static Shade shadeOnHost(const SampledFrame& frame, const PixelBox& part, const PassGraph& graph,
                              const Resolve::Lists& lists, std::size_t e) {
         const auto width = static_cast<std::size_t>(part.width());
-        const auto offsets = graph[lists.offsets].read<std::uint32_t>(width * part.height() + 1);
-        const auto after = std::upper_bound(offsets.begin(), offsets.end(), e);
-        const auto p = static_cast<std::size_t>(after - offsets.begin()) - 1;
+        const std::size_t p = pixelOfEntry(graph, lists.offsets, part, e);
         const glm::dvec2 sample(part.x0 + static_cast<int>(p % width) + 0.5,
                                 part.y0 + static_cast<int>(p / width) + 0.5);
         const Owner owner = graph[lists.owners].read<std::uint32_t>(1, e * sizeof(std::uint32_t))[0];
@@ -314,10 +299,12 @@ MethodResult runSampledVulkan(const MethodInput& in, SamplePattern pattern, Samp
         result.notes.emplace_back("ran on the CPU: the device does not sort what is seen through");
         return result;
     }
-    VulkanSampledStages stages(frame, place);
-    MethodResult result = frame.render(stages);
-    stages.report(frame, result);
-    return result;
+    return withDeviceErrors([&] {
+        VulkanSampledStages stages(frame, place);
+        MethodResult result = frame.render(stages);
+        stages.report(frame, result);
+        return result;
+    });
 }
 
 MethodResult runNoneVulkan(const MethodSpec&, const MethodInput& in) {

@@ -55,7 +55,7 @@ Buffer::Buffer(const Device& device, const std::string& name, std::size_t bytes,
                                                      MemoryBit::eDeviceLocal,
                                                      MemoryBit::eHostCached,
                                                      {}});
-        cached_ = type.cached || place == Place::kHost;
+        cached_ = place == Place::kHost || (type.cached && !device.copiesReads());
         memory_.emplace(device.handle(), vk::MemoryAllocateInfo(needs.size, type.index));
         buffer_->bindMemory(**memory_, 0);
         mapped_ = memory_->mapMemory(0, VK_WHOLE_SIZE);

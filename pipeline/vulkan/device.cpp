@@ -7,16 +7,14 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "pipeline/device_error.h"
-
 namespace edgewise::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_2;
 
-bool validationIsWanted() {
-    const char* value = std::getenv("EDGEWISE_VALIDATION");
+bool isSet(const char* variable) {
+    const char* value = std::getenv(variable);
     return value && std::strcmp(value, "1") == 0;
 }
 
@@ -170,7 +168,7 @@ std::optional<std::string> whatIsMissing(const DeviceTraits& traits) {
 }
 
 Device::Device() {
-    validated_ = validationIsWanted();
+    copies_reads_ = isSet("EDGEWISE_COPY_READS"), validated_ = isSet("EDGEWISE_VALIDATION");
     if (validated_ && !hasLayer(context_, kValidationLayer))
         throw FailureError("EDGEWISE_VALIDATION",
                            fmt::format("the layer {} is not installed", kValidationLayer));

@@ -8,15 +8,17 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "pipeline/device_error.h"
 #include "pipeline/vulkan/device_traits.h"
 
 namespace edgewise::vulkan {
 
 /// An opened device with one queue for graphics and compute. Every feature that `traits` names is on. With
-/// EDGEWISE_VALIDATION=1 in the environment the validation layer watches.
+/// EDGEWISE_VALIDATION=1 in the environment the validation layer watches; with EDGEWISE_COPY_READS=1 the host
+/// reads buffers through copies, as it does those of a real GPU, on any device.
 class Device {
   public:
-    /// The first device that has all that is needed, real GPUs first. Throws FailureError where none has.
+    /// The first device that has all that is needed, real GPUs first. Throws DeviceError where none has.
     Device();
     ~Device();
     Device(const Device&) = delete;
@@ -38,8 +40,10 @@ class Device {
                 text);
     }
 
-    /// Submits and waits. Throws FailureError for a lost device.
+    /// Submits and waits. Throws DeviceError for a lost device.
     void run(const vk::raii::CommandBuffer& commands) const;
+
+    bool copiesReads() const { return copies_reads_; }
 
     bool validated() const { return validated_; }
     /// What the validation layer has said so far.
@@ -49,7 +53,7 @@ class Device {
     void setName(vk::ObjectType type, std::uint64_t handle, const std::string& text) const;
 
     DeviceTraits traits_;
-    bool validated_ = false;
+    bool copies_reads_ = false, validated_ = false;
     std::vector<std::string> messages_;
     vk::raii::Context context_;
     std::optional<vk::raii::Instance> instance_;
@@ -60,5 +64,15 @@ class Device {
     std::optional<vk::raii::Queue> queue_;
     std::optional<vk::raii::CommandPool> command_pool_;
 };
+
+/// What Vulkan's own calls throw in `work` leaves it as a DeviceError.
+template <class Work>
+auto withDeviceErrors(Work&& work) {
+    try {
+        return work();
+    } catch (const vk::SystemError& error) {
+        throw DeviceError(error.what());
+    }
+}
 
 }  // namespace edgewise::vulkan

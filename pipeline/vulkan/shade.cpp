@@ -20,6 +20,12 @@ Specialization constantsOf(const Device& device, const ShadeTables& tables) {
 
 }  // namespace
 
+std::size_t pixelOfEntry(const PassGraph& graph, Resource offsets, const PixelBox& box, std::size_t entry) {
+    const auto pixels = static_cast<std::size_t>(box.width()) * box.height();
+    const auto begin = graph[offsets].read<std::uint32_t>(pixels + 1);
+    return static_cast<std::size_t>(std::ranges::upper_bound(begin, entry) - begin.begin()) - 1;
+}
+
 ShadePass::ShadePass(const Device& device, const ShadeTables& tables)
     : uses_(tables.uses),
       may_hand_back_((tables.uses & (kUsesStacks | kUsesPoints)) != 0 ||

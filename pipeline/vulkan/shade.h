@@ -21,6 +21,9 @@ struct ShadeEntries {
     std::function<std::size_t()> count;  ///< of entries; asked when the pass is due
 };
 
+/// Which pixel of a box an entry belongs to; `offsets` as in ShadeEntries.
+std::size_t pixelOfEntry(const PassGraph& graph, Resource offsets, const PixelBox& box, std::size_t entry);
+
 /// The host's Shade of an entry, for those that the device hands back.
 using ShadeEntry = std::function<Shade(std::size_t entry)>;
 

@@ -25,7 +25,7 @@ struct GpuPixelState {
     double last_high, last_low, before_high;
     uint base_owner, first_owner, last_owner;  // places: before the first crossing, after the last
     uint balance_low, balance_high;  // owners left less owners entered, hashed
-    uint touched, crossings, terms;
+    uint touched, crossings, pad;
 };
 
 /// What a pixel comes to.

@@ -72,7 +72,7 @@ bool isNear(uint id) {
 }
 
 void considerBaseOf(GpuTileSegment entry, EdgeInput seen, inout GpuPixelState state) {
-    double near = 9.313225746154785e-10lf;  // more than any base point is from its segment
+    double near = 9.313225746154785e-10lf;  // 2^-30 px: considerBase() looks no farther than 2^-31
     if (smaller(seen.a_y, seen.b_y) > seen.sample_y + near || larger(seen.a_y, seen.b_y) < seen.sample_y - near) return;
     double base_x = seen.sample_x + push.radius;
     if (smaller(seen.a_x, seen.b_x) > base_x + near || larger(seen.a_x, seen.b_x) < base_x - near) return;

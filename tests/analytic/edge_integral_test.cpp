@@ -181,6 +181,8 @@ struct Study {
     std::optional<double> radius, sigma;
     int edges;
     bool strip;
+    Precision precision = Precision::kFp64;
+    double u() const { return precision == Precision::kFp32 ? 0x1p-24 : kU; }
 };
 
 /// A fixed-point conversion errs by 2^-61: up to three of them are no matter of the formula.
@@ -188,9 +190,9 @@ constexpr Real kConversions = 1.5L * 0x1p-60L;
 
 std::map<std::string, Worst> measure(const Study& study, Real& reported) {
     const Prefilter filter = makePrefilter(study.name, study.radius, study.sigma);
-    const EdgeKernel kernel(filter);
+    const EdgeKernel kernel(filter, study.precision);
     const KernelTruth truth(filter);
-    const EdgeTermsFunction function = chooseEdgeTerms();
+    const EdgeTermsFunction function = chooseEdgeTerms(study.precision);
     std::mt19937 random(kSeed);
     EdgeMaker maker(random, filter.radius);
     std::map<std::string, Worst> all;
@@ -204,7 +206,7 @@ std::map<std::string, Worst> measure(const Study& study, Real& reported) {
             const Settled exact = study.strip ? stripTruth(truth, line, terms) : fanTruth(truth, line, terms);
             const Real difference = settledValue(terms) - exact.value;
             const Real wrapped = std::abs(difference - std::round(difference));
-            const double error = static_cast<double>(wrapped - exact.error - kConversions) / kU;
+            const double error = static_cast<double>(wrapped - exact.error - kConversions) / study.u();
             reported = std::max(reported, exact.error);
             worst.met += terms.touched & 1;
             worst.absolute = std::max(worst.absolute, error);
@@ -240,6 +242,18 @@ TEST(EdgeIntegral, FanTermsMatchQuadrature) {
         check({name, {}, {}, 100, false}, kRelativeU, kAbsoluteU);
     for (double sigma : {2e-3, 0.2, 20.0, 200.0})
         check({"gaussian", 2, sigma, 40, false}, kRelativeU, kAbsoluteU);
+}
+
+/// The same promise with u = 2^-24. [E21]
+TEST(EdgeIntegral, FloatTermsMatchQuadrature) {
+    std::printf("seed %u\n", kSeed);
+    for (const char* name : {"disk", "cone", "gaussian", "poly:1,-2,1"})
+        check({name, {}, {}, 60, false, Precision::kFp32}, kRelativeU, kAbsoluteU);
+    for (double sigma : {2e-3, 0.2, 20.0, 200.0})
+        check({"gaussian", 2, sigma, 30, false, Precision::kFp32}, kRelativeU, kAbsoluteU);
+    constexpr double no_relative = 1e300;  // terms of either sign cancel
+    for (const char* name : {"box", "tent", "gaussian-separable", "mitchell", "lanczos"})
+        check({name, {}, {}, 20, true, Precision::kFp32}, no_relative, kAbsoluteU);
 }
 
 /// Short chords of the circle of 9.25 sigma that reach beyond it at both ends: there the term is the angle

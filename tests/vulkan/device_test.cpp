@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "analytic/transcendental.h"
@@ -19,6 +21,33 @@ namespace {
 using PassGraphTest = test::DeviceTest;
 using SharedArithmetic = test::DeviceTest;
 using Names = std::vector<std::string>;
+
+TEST(DeviceErrors, AreWhatVulkansOwnCallsThrow) {
+    const auto fails = [] { throw vk::OutOfDeviceMemoryError("vkAllocateMemory"); };
+    EXPECT_THROW(withDeviceErrors(fails), DeviceError);
+    EXPECT_EQ(withDeviceErrors([] { return 7; }), 7);
+}
+
+/// A device of a real GPU's manners: what the host reads are copies, of any part, and always fresh.
+TEST(CopiedReads, HaveWhatTheDeviceWrote) {
+    test::device();  // validation is on
+    ::setenv("EDGEWISE_COPY_READS", "1", 1);
+    const Device device;
+    ::unsetenv("EDGEWISE_COPY_READS");
+    ASSERT_TRUE(device.copiesReads());
+    std::vector<std::uint32_t> numbers(1000);
+    std::iota(numbers.begin(), numbers.end(), 7u);
+    Buffer buffer = bufferOf(device, "numbers", numbers);
+    const auto small = buffer.read<std::uint32_t>(3, 4 * sizeof(std::uint32_t));
+    EXPECT_EQ(small[2], 7u + 6u);
+    EXPECT_NE(small.data(), buffer.view<std::uint32_t>(3, 4 * sizeof(std::uint32_t)).data());
+    EXPECT_TRUE(std::ranges::equal(buffer.read<std::uint32_t>(numbers.size()), numbers));
+    buffer.view<std::uint32_t>(1)[0] = 1;
+    EXPECT_EQ(buffer.read<std::uint32_t>(1)[0], 1u);
+    const Buffer moved = std::move(buffer);
+    EXPECT_EQ(moved.read<std::uint32_t>(1, 999 * sizeof(std::uint32_t))[0], 7u + 999u);
+    EXPECT_TRUE(device.validationMessages().empty());
+}
 
 TEST_F(PassGraphTest, WhatFeedsNothingWantedIsNotRun) {
     const Device& device = test::device();
