@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analytic/exact/owner_at.h"
+#include "pipeline/judge/disk_centres.h"
 #include "pipeline/judge/map_owners.h"
 
 namespace edgewise::judge {
@@ -38,10 +39,11 @@ FinePoint middleOf(const Chord& chord, bool turned) {
     return finePointNear(turned ? QuadPoint{chord.y, x} : QuadPoint{x, chord.y});
 }
 
-/// What chords along both axes say of a face.
+/// What chords along both axes say of a face, and what its sides say where these leave a doubt.
 struct Inside {
     std::vector<FinePoint> clear;  ///< middles of disks
-    QuadReal widest[2] = {0, 0};   ///< of all chords along x and along y
+    bool surely_no_disk = false;
+    QuadReal widest[2] = {0, 0};  ///< of all chords along x and along y
     QuadReal widest_middle = 0;
     FinePoint in_widest;
 };
@@ -60,11 +62,23 @@ void lookAlong(bool turned, const std::vector<Wall>& walls, const Region& box, I
     });
 }
 
-Inside insideOf(const Face& face, const Region& box) {
+/// The middles of chords miss the disks at the wide end of a sliver.
+void lookForCentre(const Face& face, const std::vector<Wall>& walls, const Region& box, Inside& inside) {
+    const DiskCentres centres = diskCentres(face, box, kDiskPx / 2);
+    inside.surely_no_disk = centres.corners.empty();
+    if (inside.surely_no_disk || !centres.convex_face) return;
+    const FinePoint p = finePointNear(quadPoint(meanOf(centres.corners)));
+    if (clearOf(walls, quadPoint(p), kDiskPx / 2)) inside.clear.push_back(p);
+}
+
+Inside insideOf(const Face& face, const Region& box, double area_px2) {
     Inside inside;
     const std::vector<Wall> walls = outlineOf(face);
     lookAlong(false, walls, box, inside);
     lookAlong(true, exchanged(walls), exchanged(box), inside);
+    inside.surely_no_disk = area_px2 < std::numbers::pi / 4 * kDiskPx * kDiskPx ||
+                            inside.widest[0] < kDiskPx || inside.widest[1] < kDiskPx;
+    if (inside.clear.empty() && !inside.surely_no_disk) lookForCentre(face, walls, box, inside);
     return inside;
 }
 
@@ -75,7 +89,7 @@ class Judge {
         : scene_(scene), owners_(map), box_(box), report_(report) {}
 
     void face(std::size_t index, const Face& face, double area_px2) {
-        const Inside inside = insideOf(face, box_);
+        const Inside inside = insideOf(face, box_, area_px2);
         ++report_.faces;
         report_.tied_faces += face.tied.size() > 1;
         if (inside.clear.empty()) return smallFace(index, face, inside, area_px2);
@@ -116,9 +130,7 @@ class Judge {
     void smallFace(std::size_t index, const Face& face, const Inside& inside, double area_px2) {
         ++report_.small_faces;
         report_.small_area_px2 += area_px2;
-        const bool surely = area_px2 < std::numbers::pi / 4 * kDiskPx * kDiskPx ||
-                            inside.widest[0] < kDiskPx || inside.widest[1] < kDiskPx;
-        report_.unsure_faces += !surely;
+        report_.unsure_faces += !inside.surely_no_disk;
         if (inside.widest_middle > 0 && owners_.at(inside.in_widest) == face.owner) return;
         report_.small_wrong.push_back(index);
         report_.small_wrong_area_px2 += area_px2;

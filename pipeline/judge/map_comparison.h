@@ -39,7 +39,9 @@ struct MapReport {
 /// more at each side: a map ends a little inside its window.
 ///
 /// Every face is cut into trapezoids along both axes. The middle of each trapezoid that no side of the face
-/// approaches by kDiskPx / 2 is asked of the map. The other way round the map's pieces are cut, and their
+/// approaches by kDiskPx / 2 is asked of the map. Where there is none, and area and chords leave room for a
+/// disk, its middle is sought in exact arithmetic (diskCentres): found in a convex face wherever one is, but
+/// for one that fits within the rounding. The other way round the map's pieces are cut, and their
 /// middles are asked of the scene, by exact::ownerAt(): so the background is judged, and any other owner that
 /// the map shows over a disk. Walls are held to 2^-86 px, far below the disk.
 MapReport compareMaps(const ScreenScene& scene, const std::vector<exact::Face>& faces, const VisibleMap& map,

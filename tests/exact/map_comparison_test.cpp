@@ -196,6 +196,69 @@ TEST(WrongMaps, ASpeckMadeUpIsFoundByItsOwner) {
     EXPECT_NE(report.first.find("2 instead of 0"), std::string::npos) << report.first;
 }
 
+/// Over another triangle, a right-angled or nearly right-angled one along (4, 3) px from (1, 1), whose short
+/// side is this many steps of the grid. Four are a disk; both axes' chords are longer than one.
+struct Sliver {
+    static constexpr double kStepPx = 0x1p-32;
+    ScreenScene scene;
+    exact::Region box{0, 0, 8, 8};
+    VisibleMap map;
+
+    explicit Sliver(glm::dvec2 short_side_steps, double left_px = 0) {
+        witness::SceneBuilder builder;
+        for (const double depth : {1.0, 2.0}) builder.addPlane(DepthPlane{0, 0, depth});
+        builder.addOnPlane({glm::dvec2{-20, -20}, {40, -20}, {-20, 40}}, 0);
+        builder.addOnPlane({glm::dvec2{1, 1}, {5, 4}, glm::dvec2(1) + kStepPx * short_side_steps}, 1);
+        scene = builder.scene();
+        box.x0 = left_px;
+        map = visibleMap(scene, windowOf(box));
+    }
+    MapReport report() const { return judge::compareMaps(scene, exact::visibleFaces(scene, box), map, box); }
+};
+
+void expectOneSmallFace(const MapReport& report) {
+    EXPECT_TRUE(report.good()) << report.first;
+    EXPECT_EQ(report.faces, 2u);
+    EXPECT_EQ(report.small_faces, 1u);
+    EXPECT_EQ(report.unsure_faces, 0u);
+}
+
+TEST(MapComparisonSlivers, ASlantedOneThinnerThanTheDiskIsProvenToHaveNone) {
+    expectOneSmallFace(Sliver({-1, 4}).report());  // (4 * 4 + 3 * 1) / 5 = 3.8 steps high
+}
+
+TEST(MapComparisonSlivers, WhatIsWideOutsideTheBoxIsSmallInIt) {
+    expectOneSmallFace(Sliver({-3, 4}, 2).report());  // 5 steps at x = 1, 3.75 at x = 2
+}
+
+TEST(MapComparisonSlivers, ASlantedOneThickerThanTheDiskIsAskedAtItsWideEnd) {
+    Sliver sliver({-3, 3});  // 4.2 steps high
+    const MapReport report = sliver.report();
+    EXPECT_TRUE(report.good()) << report.first;
+    EXPECT_EQ(report.faces_with_disk, 2u);
+    EXPECT_EQ(report.small_faces, 0u);
+    sliver.map.segments.clear();  // all of them are the sliver's
+    const MapReport wrong = sliver.report();
+    EXPECT_GT(wrong.ownership_errors, 0u);
+    EXPECT_NE(wrong.first.find("0 instead of 1"), std::string::npos) << wrong.first;
+}
+
+/// A triangle and a nearer copy of it leave a wedge of two thin arms: moved inwards, its outer sides still
+/// surround the copy, which is none of the wedge.
+TEST(MapComparisonSlivers, ABentOneIsNotAskedBetweenItsArms) {
+    witness::SceneBuilder builder;
+    for (const double depth : {1.0, 2.0}) builder.addPlane(DepthPlane{0, 0, depth});
+    const glm::dvec2 moved = Sliver::kStepPx * glm::dvec2(5, 8);
+    builder.addOnPlane({glm::dvec2{1, 1}, {5, 4}, {2, 6}}, 0);
+    builder.addOnPlane({glm::dvec2{1, 1} + moved, glm::dvec2{5, 4} + moved, glm::dvec2{2, 6} + moved}, 1);
+    const exact::Region box{0, 0, 8, 8};
+    const MapReport report = judge::compareMaps(builder.scene(), exact::visibleFaces(builder.scene(), box),
+                                                visibleMap(builder.scene(), windowOf(box)), box);
+    EXPECT_TRUE(report.good()) << report.first;
+    EXPECT_EQ(report.small_faces, 1u);
+    EXPECT_EQ(report.unsure_faces, 1u);  // not convex: its disks may be missed, and it says so
+}
+
 /// Its side cuts a corner off the box; all its own corners lie outside.
 TEST(MapComparisonPoints, AFaceInACornerOfTheBoxIsAsked) {
     witness::SceneBuilder builder;
