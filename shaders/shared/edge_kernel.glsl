@@ -1,11 +1,7 @@
 // GLSL only: what analytic/lane_kernel.h is in C++. A kernel's numbers lie in one buffer, `kernel_numbers`, which its parts
 // are places in: WeightKernel in pipeline/vulkan/weight_kernel.cpp fills it in this order.
 
-struct EdgeInput {
-    double sample_x, sample_y;
-    double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, len;
-    double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
-};
+#include "shared/edge_input.glsl"
 
 struct RuleView {
     int count, node, weight;
