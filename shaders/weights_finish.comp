@@ -42,24 +42,25 @@ void addCrossing(inout Border border, double order, double doubt, uint before, u
 }
 
 void addNote(inout Border border, GpuBorderNote note) {
-    uint entry = note.what / 4u, kind = note.what % 4u;
-    uint left = entries[entry].left, right = entries[entry].right;
-    if (kind == kNoteEntry) addCrossing(border, note.first, note.second, left, right);
-    if (kind == kNoteExit) addCrossing(border, note.first, note.second, right, left);
-    if (kind < kNoteBaseLeft) return;
-    BasePoint base = BasePoint(note.first, note.second, ownerAt(kind == kNoteBaseLeft ? left : right));
+    if (note.kind == kNoteEntry) addCrossing(border, note.first, note.second, note.left, note.right);
+    if (note.kind == kNoteExit) addCrossing(border, note.first, note.second, note.right, note.left);
+    if (note.kind < kNoteBaseLeft) return;
+    BasePoint base =
+        BasePoint(note.first, note.second, ownerAt(note.kind == kNoteBaseLeft ? note.left : note.right));
     if (isNearer(base, border.base)) border.base = base;
 }
 
 Border borderOf(uint first_note) {
     Border border = Border(0u, 0u, 0u, 1e300lf, 1e300lf, 1e300lf, -1e300lf, -1e300lf, -1e300lf, 0ul, noBasePoint(), true);
     uint left = kMostOwners;
-    for (uint next = first_note; next != 0u; next = notes[next - 1u].next) {
+    for (uint next = first_note; next != 0u;) {
         if (left-- == 0u) {
             border.complete = false;
             break;
         }
-        addNote(border, notes[next - 1u]);
+        GpuBorderNote note = notes[next - 1u];
+        addNote(border, note);
+        next = note.next;
     }
     return border;
 }

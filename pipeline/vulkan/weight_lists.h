@@ -16,7 +16,7 @@ namespace edgewise::vulkan {
 
 static_assert(sizeof(GpuCarrierLine) == sizeof(CarrierLine) && sizeof(GpuRowOwner) == 16);
 static_assert(sizeof(GpuTileSegment) == 16 && sizeof(WeightListPush) == 48);
-static_assert(sizeof(GpuPair) == 8 && sizeof(GpuPixelState) == 8 && sizeof(GpuBorderNote) == 24);
+static_assert(sizeof(GpuPair) == 20 && sizeof(GpuPixelState) == 8 && sizeof(GpuBorderNote) == 32);
 
 /// An area whose boxes are weighed.
 struct WeightInput {

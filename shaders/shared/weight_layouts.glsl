@@ -17,9 +17,10 @@ struct GpuTileSegment {
     uint segment, left, right, tile;
 };
 
-/// An entry of the tiles' lists and a pixel that it may touch.
+/// A segment and a pixel that it may touch.
 struct GpuPair {
-    uint entry, pixel;  // pixel: tile of the box times 64, and the place in the tile
+    uint segment, left, right;  // as the entry's
+    uint pixel, sums;           // tile of the box times 64, and the place in the tile; sums before the tile's
 };
 
 /// What a pixel has met beside its sums: how many segments touch it, and the last of a chain of notes.
@@ -30,7 +31,8 @@ struct GpuPixelState {
 /// A segment met the support's border, or the point where owners are looked up. [E12], [E13], [E15]
 struct GpuBorderNote {
     double first, second;  // a crossing's order and doubt; a base point's distance2 and cosine
-    uint next, what;       // next as in GpuPixelState; what: the entry times 4, and a kind
+    uint next, kind;       // next as in GpuPixelState
+    uint left, right;      // places of the segment's owners
 };
 const uint kNoteEntry = 0u;      // from the left owner into the right one, along the border
 const uint kNoteExit = 1u;       // from the right one into the left one

@@ -25,42 +25,40 @@ EdgeInput inputOf(uint id) {
                      l.c_lo, l.len, l.direction_x, l.direction_y);
 }
 
-void addTo(uint place, bits value) { atomicAdd(sums[sumIndex(place)], value); }
+void addTo(uint place, bits value) {
+    if (value != 0l) atomicAdd(sums[sumIndex(place)], value);
+}
 
 /// Puts what pair `at` has met before the pixel's chain.
-void leaveNote(uint at, double first, double second, uint entry, uint kind) {
+void leaveNote(uint at, double first, double second, uint kind, GpuPair pair) {
     uint note = at * kNotesPerPair + (kind == kNoteBaseRight ? kNoteBaseLeft : kind);
-    notes[note] = GpuBorderNote(first, second, atomicExchange(states[stateIndex()].notes, note + 1u), entry * 4u + kind);
+    uint next = atomicExchange(states[stateIndex()].notes, note + 1u);
+    notes[note] = GpuBorderNote(first, second, next, kind, pair.left, pair.right);
 }
 
-void addCrossing(uint at, BorderPoint point, uint before, uint after, uint entry, uint kind) {
-    if (!point.crossed) return;
-    bits position = toFixed(realOf(point.position));
-    addTo(before, position);
-    addTo(after, -position);
-    leaveNote(at, point.order, point.doubt, entry, kind);
-}
-
-void considerBaseOf(uint at, uint entry, EdgeInput seen) {
+void considerBaseOf(uint at, GpuPair pair, EdgeInput seen) {
     double near = 9.313225746154785e-10lf;  // 2^-30 px: considerBase() looks no farther than 2^-31
     if (smaller(seen.a_y, seen.b_y) > seen.sample_y + near || larger(seen.a_y, seen.b_y) < seen.sample_y - near) return;
     double base_x = seen.sample_x + push.radius;
     if (smaller(seen.a_x, seen.b_x) > base_x + near || larger(seen.a_x, seen.b_x) < base_x - near) return;
     BasePoint base = noBasePoint();
     considerBase(base, kForm != kStripTerm, push.radius, seen, seen.sample_x, kNoteBaseLeft, kNoteBaseRight);
-    if (isKnown(base)) leaveNote(at, base.distance2, base.cosine, entry, base.owner);
+    if (isKnown(base)) leaveNote(at, base.distance2, base.cosine, base.owner, pair);
 }
+
+/// What a crossing moves from the right owner to the left one on the way in, and back on the way out.
+bits shareOf(BorderPoint point) { return point.crossed ? toFixed(realOf(point.position)) : bits(0); }
 
 void main() {
     uint at = flatIndex();
     if (at >= push.count) return;
-    uint entry = pairs[at].entry;
-    tile_index = pairs[at].pixel / 64u;
-    place_in_tile = pairs[at].pixel % 64u;
-    sums_begin = sum_first[tile_index];
+    GpuPair pair = pairs[at];
+    tile_index = pair.pixel / 64u;
+    place_in_tile = pair.pixel % 64u;
+    sums_begin = pair.sums;
     readKernel(push.radius, push.inner_radius);
-    EdgeInput seen = inputOf(entries[entry].segment);
-    considerBaseOf(at, entry, seen);
+    EdgeInput seen = inputOf(pair.segment);
+    considerBaseOf(at, pair, seen);
     Line line = lineAt(seen, seen.sample_x);
     EdgeTerm term;
     if (kForm == kStripTerm)
@@ -69,10 +67,9 @@ void main() {
         term = fanTerms(line);
     if (!term.touched) return;
     atomicAdd(states[stateIndex()].touched, 1u);
-    uint left = entries[entry].left, right = entries[entry].right;
-    bits value = toFixed(realOf(term.value));
-    addTo(left, value);
-    addTo(right, -value);
-    addCrossing(at, term.entry, left, right, entry, kNoteEntry);
-    addCrossing(at, term.exit, right, left, entry, kNoteExit);
+    bits value = toFixed(realOf(term.value)) + shareOf(term.entry) - shareOf(term.exit);
+    addTo(pair.left, value);
+    addTo(pair.right, -value);
+    if (term.entry.crossed) leaveNote(at, term.entry.order, term.entry.doubt, kNoteEntry, pair);
+    if (term.exit.crossed) leaveNote(at, term.exit.order, term.exit.doubt, kNoteExit, pair);
 }
