@@ -13,8 +13,6 @@ struct WeightKernel {
     /// kernel_numbers of shaders/shared/edge_kernel.glsl, as doubles; floats are made of them for kFp32.
     std::vector<double> numbers;
     Specialization constants;  ///< kForm ...
-    /// Turns of loops that one segment may cost the samples that a device runs together.
-    std::size_t turns = 0;
 };
 
 }  // namespace edgewise::vulkan

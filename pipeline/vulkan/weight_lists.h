@@ -32,10 +32,10 @@ struct WeightInput {
 struct WeightLists {
     WeightInput input;
     std::shared_ptr<const WeightMap> map;
-    Buffer offsets;  ///< uint by tile, and the end: twice those into entries
-    Buffer entries;  ///< GpuTileSegment: ids of `map`, places among the tile's owners
-    Buffer slots;    ///< uint by tile, and the end: into owners
-    Buffer owners;   ///< ascending within a tile
+    Buffer offsets;     ///< uint by tile, and the end: twice those into entries
+    Buffer entries;     ///< GpuTileSegment: ids of `map`, places among the tile's owners
+    Buffer slots;       ///< uint by tile, and the end: into owners
+    Buffer owners;      ///< ascending within a tile
     Buffer pair_first;  ///< uint by entry, and the end: pixels that the entries before it may touch
     std::vector<uint> entry_begin, slot_begin, pair_begin;  ///< by tile, and the end
     std::vector<PassTime> times;

@@ -250,8 +250,8 @@ void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
 }
 
 void WeightPasses::addTerms(PassGraph& graph, const std::shared_ptr<Job>& job) {
-    job->notes = graph.buffer(
-        "border notes", [=] { return job->tiles.pairs * kNotesPerPair * sizeof(GpuBorderNote); });
+    job->notes = graph.buffer("border notes",
+                              [=] { return job->tiles.pairs * kNotesPerPair * sizeof(GpuBorderNote); });
     job->sums = graph.buffer("sums", [=] { return job->sumBytes(); });
     job->states = graph.buffer("pixel states",
                                [=] { return job->tiles.count() * kTilePixels * sizeof(GpuPixelState); });
@@ -264,8 +264,7 @@ void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) 
     job->kinds =
         graph.buffer("pixel kinds", [=] { return job->tiles.count() * kTilePixels * 2 * sizeof(uint); });
     job->counts = graph.buffer("entry counts", [=] { return job->pixels() * sizeof(uint); });
-    job->reports =
-        graph.buffer("tile reports", [=] { return job->tiles.count() * sizeof(GpuTileReport); });
+    job->reports = graph.buffer("tile reports", [=] { return job->tiles.count() * sizeof(GpuTileReport); });
     job->handed_list = graph.buffer("pixels handed back", [=] { return (1 + job->pixels()) * sizeof(uint); });
     graph.add(
         "weights finish",
