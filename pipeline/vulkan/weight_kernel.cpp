@@ -1,5 +1,9 @@
 #include "pipeline/vulkan/weight_kernel.h"
 
+#include <fmt/format.h>
+
+#include "pipeline/vulkan/weight_lists.h"
+
 namespace edgewise::vulkan {
 namespace {
 
@@ -22,6 +26,14 @@ void append(std::vector<double>& numbers, const TableView& table) {
 }
 
 }  // namespace
+
+std::optional<std::string> whyNotWeighed(const Prefilter& filter) {
+    const WeightKernel made(filter, Precision::kFp64);
+    const int pieces = made.kernel.lanes.table.intervals;
+    if (pieces <= kMostIntervals && made.numbers.size() <= kKernelNumbers) return std::nullopt;
+    return fmt::format("the filter has {} polynomial pieces along a side, its shader holds {}", pieces,
+                       kMostIntervals);
+}
 
 WeightKernel::WeightKernel(const Prefilter& filter, Precision precision) : kernel(filter, precision) {
     const LaneKernel& lanes = kernel.lanes;

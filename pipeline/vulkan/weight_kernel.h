@@ -1,10 +1,16 @@
 // A prefilter as weights' shaders take it.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "analytic/edge_integral.h"
 #include "pipeline/vulkan/bindings.h"
 
 namespace edgewise::vulkan {
+
+/// Why the shaders cannot weigh with a filter, in words; nullopt: they can.
+std::optional<std::string> whyNotWeighed(const Prefilter& filter);
 
 struct WeightKernel {
     WeightKernel(const Prefilter& filter, Precision precision);

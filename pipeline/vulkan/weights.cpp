@@ -24,8 +24,11 @@ constexpr std::uint32_t kGroup = 64;
 constexpr std::size_t kTilePixels = std::size_t{kTilePx} * kTilePx;
 
 Buffer numbersOf(const Device& device, const WeightKernel& kernel, Precision precision) {
-    if (precision == Precision::kFp64) return bufferOf(device, "kernel", kernel.numbers);
-    return bufferOf(device, "kernel", std::vector<float>(kernel.numbers.begin(), kernel.numbers.end()));
+    assert(kernel.numbers.size() <= kKernelNumbers);
+    std::vector<double> all = kernel.numbers;
+    all.resize(kKernelNumbers, 0.0);
+    if (precision == Precision::kFp64) return bufferOf(device, "kernel", all);
+    return bufferOf(device, "kernel", std::vector<float>(all.begin(), all.end()));
 }
 
 const char* shaderOf(Precision precision) {
@@ -192,7 +195,8 @@ WeightPasses::WeightPasses(const Device& device, const Prefilter& filter, const 
       numbers_(numbersOf(device, kernel_, options.precision)),
       lists_(device, filter.radius),
       pairs_(device, "weights_pairs.comp", kWeightBindings, sizeof(WeightPush)),
-      terms_(device, shaderOf(options.precision), kWeightBindings, sizeof(WeightPush), kernel_.constants),
+      terms_(device, shaderOf(options.precision), BufferSlots(kWeightBindings, kWeightNumbers),
+             sizeof(WeightPush), kernel_.constants),
       finish_(device, "weights_finish.comp", kWeightBindings, sizeof(WeightPush),
               {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u,
                static_cast<std::uint32_t>(grantedTurns(device.traits()) / 2)}),

@@ -23,6 +23,9 @@ const int kStripTerm = 4;
 
 const double kLongestPieceSigmas = EDGEWISE_REAL(3.0);
 const int kPieceRules = 3;
+const int kMostCellNodes = 24;
+const int kMostIntervals = 32;
+#define EDGEWISE_BY_INVOCATION
 
 layout(constant_id = 0) const int kForm = 0;
 layout(constant_id = 1) const int kRule0 = 0;

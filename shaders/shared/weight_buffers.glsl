@@ -6,7 +6,9 @@ layout(local_size_x = 64) in;
 #include "shared/layouts.glsl"
 #include "shared/weight_layouts.glsl"
 
-layout(std430, binding = kWeightNumbers) readonly buffer Numbers { work kernel_numbers[]; };
+#ifdef EDGEWISE_READS_KERNEL
+layout(std430, binding = kWeightNumbers) uniform Numbers { work kernel_numbers[kKernelNumbers]; };
+#endif
 layout(std430, binding = kWeightSegments) readonly buffer Segments { GpuSegment segments[]; };
 layout(std430, binding = kWeightLines) readonly buffer Lines { GpuCarrierLine lines[]; };
 layout(std430, binding = kWeightOffsets) readonly buffer Offsets { uint offsets[]; };

@@ -1,5 +1,8 @@
 // What weights' shaders and pipeline/vulkan/weights.cpp agree on.
 
+/// Places for a kernel's numbers: as many doubles as every device's uniform buffers hold.
+const int kKernelNumbers = 2048;
+
 /// A tile is as many pixels wide and high: a workgroup, a pixel an invocation.
 const int kTilePx = 8;
 
@@ -71,7 +74,7 @@ struct WeightListPush {
     uint segments, group_row;
 };
 
-const int kWeightNumbers = 0;
+const int kWeightNumbers = 0;  // uniform, kKernelNumbers of them
 const int kWeightSegments = 1;   // GpuSegment
 const int kWeightLines = 2;      // GpuCarrierLine
 const int kWeightOffsets = 3;    // by tile of the lists, into the next, twice
