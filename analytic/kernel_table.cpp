@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "analytic/lane_kernel.h"
 #include "analytic/quad_real.h"
 
 namespace edgewise {
@@ -193,6 +194,8 @@ KernelTable makeKernelTable(const Prefilter& filter) {
     table.l1 = static_cast<double>(fit.l1 / quadAbs(total)) * (1 + 0x1p-10);
     table.fit_error = static_cast<double>(fit.error / fit.largest);
     table.rule = gaussRule(cellNodes(factor, table));
+    if (table.rule.count() > kMostCellNodes)
+        throw std::logic_error("a kernel's cells take more nodes than terms hold");
     return table;
 }
 

@@ -26,6 +26,9 @@ struct PieceRule {
     RuleView rule;
 };
 
+/// Nodes that the rule of a table's cells has at most, and cells along a side.
+inline constexpr int kMostCellNodes = 24, kMostIntervals = 32;
+
 /// A KernelTable.
 struct TableView {
     int intervals = 0, k_count = 0;

@@ -4,6 +4,7 @@
 #define EDGEWISE_FN [[gnu::always_inline]] inline
 #define EDGEWISE_EXACT_FN [[gnu::always_inline]] inline
 #define EDGEWISE_PRECISE
+#define EDGEWISE_UNROLL
 #define EDGEWISE_INIT {
 #define EDGEWISE_END }
 #define EDGEWISE_REAL(number) number

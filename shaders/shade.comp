@@ -35,6 +35,7 @@ layout(std430, binding = kBank0Binding) readonly buffer Bank0 { vec4 bank0[]; };
 layout(std430, binding = kBank1Binding) readonly buffer Bank1 { vec4 bank1[]; };
 layout(std430, binding = kBank2Binding) readonly buffer Bank2 { vec4 bank2[]; };
 layout(std430, binding = kBank3Binding) readonly buffer Bank3 { vec4 bank3[]; };
+layout(std430, binding = kEntryPixelsBinding) readonly buffer EntryPixels { uint entry_pixel[]; };
 layout(push_constant) uniform Push { ShadePush push; };
 
 const uint kFirstStack = 0x80000000u;
@@ -332,8 +333,10 @@ bool allFromTable(uint owner, uint first, uint count) {
     return true;
 }
 
-/// The pixel whose entries these are: the last that begins at or before it.
+/// The pixel whose entry this is: the last whose entries begin at or before it.
 uint pixelOf(uint entry) {
+    uint signed_by = entry_pixel[entry];
+    if (signed_by != kAbsent) return signed_by;
     uint low = 0u, high = push.pixels;
     while (high - low > 1u) {
         uint middle = (low + high) / 2u;

@@ -4,7 +4,7 @@
 #include "shared/weight_buffers.glsl"
 
 void main() {
-    if (!hasPixel()) return;
+    if (!findPixel()) return;
     uvec2 pixel = pixels[stateIndex()];
     uint at = out_offsets[pixelIndex()];
     if (pixel.x == kPixelWhole) {

@@ -51,7 +51,7 @@ bool hasPoints(const NsaaFrame& frame) {
 std::optional<std::string> whyNotWeighed(const NsaaFrame& frame) {
     if (hasPoints(frame)) return "--shading centroid and samples:N find their points there";
     if (frame.aov.weighs()) return "the AOVs ask for the weights of every owner";
-    return std::nullopt;
+    return vulkan::whyNotWeighed(frame.in.filter);
 }
 
 ShadeTables tablesOf(const NsaaFrame& frame) {
@@ -66,12 +66,12 @@ class VulkanStages : public CpuStages {
         : triangles_(bufferOf(device_, "triangles", frame.screen.triangles)),
           planes_(bufferOf(device_, "planes", frame.screen.planes)),
           gather_(device_),
-          visibility_(device_),
-          weights_(device_, frame.in.filter, frame.plan.weights) {
+          visibility_(device_) {
         const ShadeTables tables = tablesOf(frame);
         why_not_shaded_ = whyNotShaded(tables, device_.traits());
         if (!why_not_shaded_) shade_.emplace(device_, tables), blend_.emplace(device_), uses_ = tables.uses;
         why_not_weighed_ = whyNotWeighed(frame);
+        if (!why_not_weighed_) weights_.emplace(device_, frame.in.filter, frame.plan.weights);
         frame.result.device = "vulkan";
         frame.result.setup_seconds = frame.watch.lap();
     }
@@ -106,9 +106,9 @@ class VulkanStages : public CpuStages {
     WeightTile weights(NsaaFrame& frame, const VisibleMap& map, const OwnerClasses& classes,
                        const PixelBox& box) override {
         if (why_not_weighed_) return CpuStages::weights(frame, map, classes, box);
-        const auto lists = weights_.listsOf({map, classes, box, frame.offset(), nullptr});
+        const auto lists = weights_->listsOf({map, classes, box, frame.offset(), nullptr});
         PassGraph graph(device_);
-        const auto entries = lists ? weights_.addTo(graph, *lists, box) : std::nullopt;
+        const auto entries = lists ? weights_->addTo(graph, *lists, box) : std::nullopt;
         if (!entries) return CpuStages::weights(frame, map, classes, box);
         graph.run({entries->offsets, entries->owners, entries->weights});
         return readBack(graph, *entries, box);
@@ -118,7 +118,7 @@ class VulkanStages : public CpuStages {
         result.counts["device_leaves"] = report_.leaves;
         result.counts["cells_handed_back"] = report_.handed;
         result.counts["entries_handed_back"] = handed_entries_;
-        const WeightReport& weighed = weights_.report();
+        const WeightReport weighed = weights_ ? weights_->report() : WeightReport{};
         result.counts["terms"] += weighed.terms;
         result.counts["interior_pixels"] += weighed.interior_pixels;
         result.counts["label_conflicts"] += weighed.label_conflicts;
@@ -220,7 +220,7 @@ class VulkanStages : public CpuStages {
     /// Halves what is too large for the device at once; a single tile is the host's.
     void weighArea(NsaaFrame& frame, const WeightInput& input, const BandOwners& owners) {
         const PixelBox& area = input.area;
-        if (const auto lists = weights_.listsOf(input)) {
+        if (const auto lists = weights_->listsOf(input)) {
             frame.bookSeconds("weights", frame.watch.lap());
             return forStrips(frame, area,
                              [&](const PixelBox& strip) { weighStrip(frame, *lists, owners, strip); });
@@ -238,7 +238,7 @@ class VulkanStages : public CpuStages {
     void weighStrip(NsaaFrame& frame, const WeightLists& lists, const BandOwners& owners,
                     const PixelBox& strip) {
         PassGraph graph(device_);
-        const auto entries = weights_.addTo(graph, lists, strip);
+        const auto entries = weights_->addTo(graph, lists, strip);
         if (!entries) {
             if (isSingleTile(strip)) return weighStripOnHost(frame, lists.input.map, owners, strip);
             for (const PixelBox& half : halvesOf(strip, kWeightTilePx))
@@ -344,7 +344,7 @@ class VulkanStages : public CpuStages {
     Buffer triangles_, planes_;
     Gather gather_;
     VisibilityPasses visibility_;
-    WeightPasses weights_;
+    std::optional<WeightPasses> weights_;
     std::optional<std::string> why_not_shaded_, why_not_weighed_;
     std::optional<ShadePass> shade_;
     std::optional<BlendPass> blend_;

@@ -9,12 +9,11 @@ namespace edgewise::vulkan {
 namespace {
 
 vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, vk::ShaderStageFlags stages,
-                                            std::size_t buffers, std::size_t images) {
+                                            const BufferSlots& slots, std::size_t images) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < buffers + images; ++i)
-        bindings.emplace_back(
-            i, i < buffers ? vk::DescriptorType::eStorageBuffer : vk::DescriptorType::eSampledImage, 1,
-            stages);
+    for (std::uint32_t i = 0; i < slots.count + images; ++i)
+        bindings.emplace_back(i, i < slots.count ? slots.typeOf(i) : vk::DescriptorType::eSampledImage, 1,
+                              stages);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -31,21 +30,24 @@ vk::raii::ShaderModule makeModule(const Device& device, std::string_view shader)
 
 }  // namespace
 
-Bindings::Bindings(const Device& device, vk::ShaderStageFlags stages, std::size_t buffer_count,
+Bindings::Bindings(const Device& device, vk::ShaderStageFlags stages, BufferSlots slots,
                    std::size_t image_count, std::size_t push_bytes)
     : device_(&device),
       stages_(stages),
-      buffer_count_(buffer_count),
+      slots_(slots),
       image_count_(image_count),
       push_bytes_(push_bytes),
-      set_layout_(makeSetLayout(device, stages, buffer_count, image_count)),
+      set_layout_(makeSetLayout(device, stages, slots, image_count)),
       layout_(makeLayout(device, stages, set_layout_, push_bytes)) {}
 
 vk::DescriptorSet Bindings::makeSet(const std::vector<BufferRange>& buffers,
                                     const std::vector<vk::ImageView>& images) {
     std::vector<vk::DescriptorPoolSize> sizes;
-    if (buffer_count_ > 0)
-        sizes.emplace_back(vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffer_count_));
+    const std::size_t uniforms = slots_.uniform ? 1 : 0;
+    if (slots_.count > uniforms)
+        sizes.emplace_back(vk::DescriptorType::eStorageBuffer,
+                           static_cast<std::uint32_t>(slots_.count - uniforms));
+    if (uniforms > 0) sizes.emplace_back(vk::DescriptorType::eUniformBuffer, 1);
     if (image_count_ > 0)
         sizes.emplace_back(vk::DescriptorType::eSampledImage, static_cast<std::uint32_t>(image_count_));
     pools_.emplace_back(device_->handle(), vk::DescriptorPoolCreateInfo({}, 1, sizes));
@@ -60,7 +62,7 @@ vk::DescriptorSet Bindings::makeSet(const std::vector<BufferRange>& buffers,
     std::vector<vk::WriteDescriptorSet> writes;
     std::uint32_t binding = 0;
     for (const auto& range : ranges)
-        writes.emplace_back(set, binding++, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &range);
+        writes.emplace_back(set, binding, 0, 1, slots_.typeOf(binding), nullptr, &range), ++binding;
     for (const auto& view : views)
         writes.emplace_back(set, binding++, 0, 1, vk::DescriptorType::eSampledImage, &view);
     device_->handle().updateDescriptorSets(writes, {});
@@ -70,8 +72,8 @@ vk::DescriptorSet Bindings::makeSet(const std::vector<BufferRange>& buffers,
 void Bindings::bind(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoint point,
                     const std::vector<BufferRange>& buffers, const std::vector<vk::ImageView>& images,
                     const PushBytes& push) {
-    assert(buffers.size() == buffer_count_ && images.size() == image_count_ && push.size == push_bytes_);
-    if (buffer_count_ + image_count_ > 0) {
+    assert(buffers.size() == slots_.count && images.size() == image_count_ && push.size == push_bytes_);
+    if (slots_.count + image_count_ > 0) {
         sets_.push_back(makeSet(buffers, images));
         commands.bindDescriptorSets(point, *layout_, 0, sets_.back(), {});
     }

@@ -2,6 +2,7 @@
 // push constants.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -22,6 +23,19 @@ struct BufferRange {
         : buffer(part.handle()), offset(from), bytes(size) {}
 };
 
+/// Bindings 0 ... count - 1 are storage buffers; but one may be a uniform buffer, for what all invocations
+/// read alike.
+struct BufferSlots {
+    std::size_t count;
+    std::optional<int> uniform;
+
+    BufferSlots(std::size_t of, std::optional<int> uniform_one = {}) : count(of), uniform(uniform_one) {}
+    vk::DescriptorType typeOf(std::size_t binding) const {
+        const bool is_uniform = uniform && static_cast<std::size_t>(*uniform) == binding;
+        return is_uniform ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer;
+    }
+};
+
 /// Bytes of push constants.
 struct PushBytes {
     const void* data = nullptr;
@@ -36,8 +50,8 @@ struct PushBytes {
 /// The layout of a pass's bindings, and the sets that its commands have used.
 class Bindings {
   public:
-    Bindings(const Device& device, vk::ShaderStageFlags stages, std::size_t buffer_count,
-             std::size_t image_count, std::size_t push_bytes);
+    Bindings(const Device& device, vk::ShaderStageFlags stages, BufferSlots slots, std::size_t image_count,
+             std::size_t push_bytes);
 
     const vk::raii::PipelineLayout& layout() const { return layout_; }
 
@@ -55,7 +69,8 @@ class Bindings {
 
     const Device* device_;
     vk::ShaderStageFlags stages_;
-    std::size_t buffer_count_, image_count_, push_bytes_;
+    BufferSlots slots_;
+    std::size_t image_count_, push_bytes_;
     vk::raii::DescriptorSetLayout set_layout_;
     vk::raii::PipelineLayout layout_;
     std::vector<vk::raii::DescriptorPool> pools_;

@@ -13,12 +13,12 @@ vk::raii::Pipeline makePipeline(const Device& device, const vk::raii::PipelineLa
 
 }  // namespace
 
-ComputePass::ComputePass(const Device& device, std::string_view shader, std::size_t buffer_count,
+ComputePass::ComputePass(const Device& device, std::string_view shader, BufferSlots slots,
                          std::size_t push_bytes, const Specialization& constants, std::size_t image_count)
-    : bindings_(device, kStage, buffer_count, image_count, push_bytes),
+    : bindings_(device, kStage, slots, image_count, push_bytes),
       pipeline_(makePipeline(device, bindings_.layout(), shader, constants)) {
     device.name(pipeline_, std::string(shader));
-    if (image_count == 0) warmUp(device, buffer_count, push_bytes);
+    if (image_count == 0) warmUp(device, slots.count, push_bytes);
 }
 
 /// A driver may leave the compiling to the first dispatch: this one has nothing to do (every shader looks at

@@ -18,6 +18,21 @@ Specialization constantsOf(const Device& device, const ShadeTables& tables) {
             mostTurns(device)};
 }
 
+Groups groupsOf(std::uint32_t invocations) {
+    const std::uint32_t groups = Groups::covering(invocations, kGroupSize).x,
+                        columns = std::min(groups, kMostGroups);
+    return {columns, columns == 0 ? 0 : (groups + columns - 1) / columns};
+}
+
+/// With one word, before the shaders that follow.
+void fill(const PassContext& pass, Resource buffer, std::uint32_t word) {
+    pass.commands.fillBuffer(pass[buffer].handle(), 0, VK_WHOLE_SIZE, word);
+    const vk::MemoryBarrier filled(vk::AccessFlagBits::eTransferWrite,
+                                   vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
+    pass.commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer,
+                                  vk::PipelineStageFlagBits::eComputeShader, {}, filled, {}, {});
+}
+
 }  // namespace
 
 std::size_t pixelOfEntry(const PassGraph& graph, Resource offsets, const PixelBox& box, std::size_t entry) {
@@ -28,9 +43,11 @@ std::size_t pixelOfEntry(const PassGraph& graph, Resource offsets, const PixelBo
 
 ShadePass::ShadePass(const Device& device, const ShadeTables& tables)
     : uses_(tables.uses),
+      most_signed_(mostTurns(device)),
       may_hand_back_((tables.uses & (kUsesStacks | kUsesPoints)) != 0 ||
                      tables.most_turns > mostTurns(device) / 2),
       scene_(device, tables),
+      sign_(device, "shade_pixels.comp", kSignBindings, sizeof(SignPush)),
       shade_(device, "shade.comp", kShadeBindings, sizeof(ShadePush), constantsOf(device, tables)) {}
 
 Resource ShadePass::addTo(PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host) {
@@ -42,9 +59,11 @@ Resource ShadePass::addTo(PassGraph& graph, const ShadeEntries& entries, const S
     std::vector<Resource> reads{entries.triangles, entries.offsets, entries.owners};
     for (const auto& more : {entries.stack_first, entries.stack_layers, entries.point_ends, entries.points})
         if (more) reads.push_back(*more);
+    std::optional<Resource> entry_pixels;
+    if (uses_ & kUsesVarying) reads.push_back(*(entry_pixels = addSigning(graph, entries)));
     graph.add("shade",
               {.reads = reads, .writes = {colors, status}, .record = [=, this](const PassContext& pass) {
-                   record(pass, entries, colors, status);
+                   record(pass, entries, entry_pixels, colors, status);
                }});
     if (may_hand_back_)
         graph.add("shade on the host",
@@ -54,8 +73,25 @@ Resource ShadePass::addTo(PassGraph& graph, const ShadeEntries& entries, const S
     return colors;
 }
 
-void ShadePass::record(const PassContext& pass, const ShadeEntries& entries, Resource colors,
-                       Resource status) {
+/// An entry would find its pixel by a search; signed, it reads it.
+Resource ShadePass::addSigning(PassGraph& graph, const ShadeEntries& entries) {
+    const Resource pixels =
+        graph.buffer("entry pixels", [entries] { return entries.count() * sizeof(std::uint32_t); });
+    graph.add("shade pixels",
+              {.reads = {entries.offsets}, .writes = {pixels}, .record = [=, this](const PassContext& pass) {
+                   const PixelBox box = entries.box();
+                   const auto count = static_cast<std::uint32_t>(box.width() * box.height());
+                   const Groups groups = groupsOf(count);
+                   const SignPush push{count, groups.x * kGroupSize, most_signed_};
+                   fill(pass, pixels, kAbsent);
+                   sign_.forgetSets();
+                   sign_.dispatch(pass.commands, {pass[entries.offsets], pass[pixels]}, groups, push);
+               }});
+    return pixels;
+}
+
+void ShadePass::record(const PassContext& pass, const ShadeEntries& entries,
+                       std::optional<Resource> entry_pixels, Resource colors, Resource status) {
     std::vector<BufferRange> buffers;
     for (int binding = 0; binding < kShadeBindings; ++binding) buffers.emplace_back(scene_.at(binding));
     const auto bind = [&](int binding, std::optional<Resource> resource) {
@@ -66,25 +102,20 @@ void ShadePass::record(const PassContext& pass, const ShadeEntries& entries, Res
     bind(kTrianglesBinding, entries.triangles);
     bind(kStackFirstBinding, entries.stack_first), bind(kStackLayersBinding, entries.stack_layers);
     bind(kPointEndsBinding, entries.point_ends), bind(kPointsBinding, entries.points);
+    bind(kEntryPixelsBinding, entry_pixels);
 
     const PixelBox box = entries.box();
     const auto count = static_cast<std::uint32_t>(entries.count());
-    const std::uint32_t groups = Groups::covering(count, kGroupSize).x,
-                        columns = std::min(groups, kMostGroups);
+    const Groups groups = groupsOf(count);
     const ShadePush push{box.x0,
                          box.y0,
                          static_cast<std::uint32_t>(box.width()),
                          static_cast<std::uint32_t>(box.width() * box.height()),
                          count,
-                         columns * kGroupSize};
-    pass.commands.fillBuffer(pass[status].handle(), 0, sizeof(std::uint32_t), 0);
-    const vk::MemoryBarrier filled(vk::AccessFlagBits::eTransferWrite,
-                                   vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eShaderWrite);
-    pass.commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer,
-                                  vk::PipelineStageFlagBits::eComputeShader, {}, filled, {}, {});
+                         groups.x * kGroupSize};
+    fill(pass, status, 0);
     shade_.forgetSets();
-    shade_.dispatch(pass.commands, buffers, {columns, columns == 0 ? 0 : (groups + columns - 1) / columns},
-                    push);
+    shade_.dispatch(pass.commands, buffers, groups, push);
 }
 
 void ShadePass::finish(const PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host,

@@ -42,14 +42,16 @@ class ShadePass {
     const SceneUpload& scene() const { return scene_; }
 
   private:
-    void record(const PassContext& pass, const ShadeEntries& entries, Resource colors, Resource status);
+    void record(const PassContext& pass, const ShadeEntries& entries, std::optional<Resource> entry_pixels,
+                Resource colors, Resource status);
+    Resource addSigning(PassGraph& graph, const ShadeEntries& entries);
     void finish(const PassGraph& graph, const ShadeEntries& entries, const ShadeEntry& on_host,
                 Resource colors, Resource status);
 
-    std::uint32_t uses_;
+    std::uint32_t uses_, most_signed_;
     bool may_hand_back_;
     SceneUpload scene_;
-    ComputePass shade_;
+    ComputePass sign_, shade_;
     std::size_t handed_back_ = 0;
 };
 

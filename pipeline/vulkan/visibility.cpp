@@ -268,13 +268,18 @@ bool VisibilityPasses::Work::overflows() const {
     return s.cells > s.cells_room || s.kept > s.kept_room || s.pieces > s.pieces_room || s.rows > s.rows_room;
 }
 
+/// An attempt counts as far as it went: more is to come, of all that levels fill.
 VisibilityPasses::Work::Rooms VisibilityPasses::Work::larger(const Rooms& rooms) const {
     const GpuVisibilityStatus& s = status();
-    const auto grow = [](std::size_t room, std::size_t needed) {
-        return needed > room ? needed + needed / 2 : room;
+    const bool levels = s.cells > rooms.cells || s.kept > rooms.kept;
+    const auto grow = [&](std::size_t room, std::size_t needed, bool grows, std::size_t bytes) {
+        if (!grows && needed <= room) return room;
+        return std::max(needed, std::min(4 * std::max(room, needed), most(device_, bytes)));
     };
-    return {grow(rooms.cells, s.cells), grow(rooms.kept, s.kept), grow(rooms.pieces, s.pieces),
-            grow(rooms.rows, s.rows)};
+    return {grow(rooms.cells, s.cells, levels, sizeof(GpuCell)),
+            grow(rooms.kept, s.kept, levels, sizeof(std::uint32_t)),
+            grow(rooms.pieces, s.pieces, false, sizeof(GpuPiece)),
+            grow(rooms.rows, s.rows, false, sizeof(GpuRowPiece))};
 }
 
 /// False where a buffer was too small.
@@ -351,8 +356,12 @@ void VisibilityPasses::Work::run(const Buffer& triangles, const Buffer& planes, 
     push_.loop_turns = device_.traits().loop_turns;
     report = {};
     const std::size_t total = offsets.read<std::uint32_t>(1, input.grid.size() * sizeof(std::uint32_t))[0];
-    Rooms rooms{4 * input.grid.size() + 4096, 4 * total + 4096, 3 * total + 8192,
-                8 * total + 16 * input.grid.size() + 8192};
+    const auto room = [&](std::size_t items, std::size_t bytes) {
+        return std::min(items, most(device_, bytes));
+    };
+    Rooms rooms{room(8 * input.grid.size() + 4096, sizeof(GpuCell)),
+                room(8 * total + 4096, sizeof(std::uint32_t)), room(3 * total + 8192, sizeof(GpuPiece)),
+                room(8 * total + 16 * input.grid.size() + 8192, sizeof(GpuRowPiece))};
     while (!attempt(input, rooms)) rooms = larger(rooms);
     const GpuVisibilityStatus& s = status();
     report.cells = s.cells, report.leaves = s.leaves, report.exact = s.undecided, report.handed = s.handed;

@@ -1,6 +1,8 @@
 #include "pipeline/vulkan/weight_kernel.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include "pipeline/vulkan/weight_lists.h"
 
 namespace edgewise::vulkan {
 namespace {
@@ -23,41 +25,15 @@ void append(std::vector<double>& numbers, const TableView& table) {
     append(numbers, table.rule);
 }
 
-/// Loops turn once more than they run.
-std::size_t gaussianTurns(const LaneKernel& kernel) {
-    const double longest = 2.0 * kernel.inner_radius / (kLongestPieceSigmas * kernel.sigma);
-    const auto parts = static_cast<std::size_t>(std::ceil(longest)) + 2;
-    std::size_t turns = 0;
-    for (int i = 0; i < kPieceRules; ++i) {
-        const auto nodes = static_cast<std::size_t>(kernel.piece_rules[i].rule.count);
-        // the first rules are for pieces that are one part
-        turns += 2 + (i == kPieceRules - 1 ? parts : 2) * (nodes + 2);
-    }
-    return turns;
-}
-std::size_t polyTurns(const LaneKernel& kernel) {
-    const auto nodes = static_cast<std::size_t>(kernel.poly_rule.count);
-    return (nodes + 1) * (nodes + 1);
-}
-std::size_t stripTurns(const TableView& table) {
-    const auto m = static_cast<std::size_t>(table.intervals), n = static_cast<std::size_t>(table.k_count);
-    const std::size_t cell = (static_cast<std::size_t>(table.rule.count) + 1) * (2 * n + 3);
-    return (m + 1) * ((m + 1) * (cell + 1) + 1) + (m + 1) * (n + 2);
-}
-std::size_t turnsOf(const LaneKernel& kernel) {
-    switch (kernel.form) {
-        case kGaussianTerm:
-            return gaussianTurns(kernel);
-        case kPolyTerm:
-            return polyTurns(kernel);
-        case kStripTerm:
-            return stripTurns(kernel.table);
-        default:
-            return 0;
-    }
-}
-
 }  // namespace
+
+std::optional<std::string> whyNotWeighed(const Prefilter& filter) {
+    const WeightKernel made(filter, Precision::kFp64);
+    const int pieces = made.kernel.lanes.table.intervals;
+    if (pieces <= kMostIntervals && made.numbers.size() <= kKernelNumbers) return std::nullopt;
+    return fmt::format("the filter has {} polynomial pieces along a side, its shader holds {}", pieces,
+                       kMostIntervals);
+}
 
 WeightKernel::WeightKernel(const Prefilter& filter, Precision precision) : kernel(filter, precision) {
     const LaneKernel& lanes = kernel.lanes;
@@ -76,7 +52,6 @@ WeightKernel::WeightKernel(const Prefilter& filter, Precision precision) : kerne
                  word(lanes.table.intervals),
                  word(lanes.table.k_count),
                  word(lanes.table.rule.count)};
-    turns = 1 + turnsOf(lanes);
 }
 
 }  // namespace edgewise::vulkan

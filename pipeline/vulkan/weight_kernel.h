@@ -1,10 +1,16 @@
 // A prefilter as weights' shaders take it.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "analytic/edge_integral.h"
 #include "pipeline/vulkan/bindings.h"
 
 namespace edgewise::vulkan {
+
+/// Why the shaders cannot weigh with a filter, in words; nullopt: they can.
+std::optional<std::string> whyNotWeighed(const Prefilter& filter);
 
 struct WeightKernel {
     WeightKernel(const Prefilter& filter, Precision precision);
@@ -13,8 +19,6 @@ struct WeightKernel {
     /// kernel_numbers of shaders/shared/edge_kernel.glsl, as doubles; floats are made of them for kFp32.
     std::vector<double> numbers;
     Specialization constants;  ///< kForm ...
-    /// Turns of loops that one segment may cost the samples that a device runs together.
-    std::size_t turns = 0;
 };
 
 }  // namespace edgewise::vulkan

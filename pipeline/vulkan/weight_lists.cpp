@@ -23,6 +23,9 @@ Groups rowsOf(std::size_t groups) {
     return {row, row == 0 ? 0 : (count + row - 1) / row};
 }
 
+/// What prefix sums of more than 32 bits come to.
+constexpr uint kOverflow = 0xffffffff;
+
 std::vector<uint> copyOf(const Buffer& buffer, std::size_t count) {
     const auto items = buffer.read<uint>(count);
     return {items.begin(), items.end()};
@@ -42,7 +45,7 @@ struct WeightListPasses::Job {
     const WeightMap& map;
     WeightListPush push;
     Resource segments = 0, histogram = 0, offsets = 0, entries = 0, sides = 0, firsts = 0, places = 0,
-             slots = 0, owners = 0;
+             slots = 0, owners = 0, pair_counts = 0, pair_first = 0;
     std::optional<Buffer> counted, offset_buffer;
     std::vector<PassTime> times;
 
@@ -102,13 +105,14 @@ void WeightListPasses::addCount(PassGraph& graph, const Job& job) {
 
 void WeightListPasses::addFill(PassGraph& graph, const Job& job) {
     graph.add("weights list", {.reads = {job.segments, job.histogram, job.offsets},
-                               .writes = {job.histogram, job.entries, job.sides},
+                               .writes = {job.histogram, job.entries, job.sides, job.pair_counts},
                                .record = [&job, this](const PassContext& pass) {
                                    job.dispatch(pass, fill_,
                                                 job.bindings(pass, {{kListHistogram, job.histogram},
                                                                     {kListOffsets, job.offsets},
                                                                     {kListEntries, job.entries},
-                                                                    {kListSides, job.sides}}),
+                                                                    {kListSides, job.sides},
+                                                                    {kListPairCounts, job.pair_counts}}),
                                                 Groups::covering(job.map.size(), kGroup).x);
                                }});
     order_.addSort(graph, "weights", {job.offsets, job.sides}, job.tiles());
@@ -182,13 +186,15 @@ WeightLists WeightListPasses::list(Job& job, const WeightInput& input, const std
     job.sides = graph.buffer("tile sides", words(2 * sides));
     job.firsts = graph.buffer("first sides", words(sides));
     job.slots = graph.buffer("tile slots", words(job.tiles() + 1));
+    job.pair_counts = graph.buffer("pair counts", words(sides / 2));
     addFill(graph, job);
+    job.pair_first = scan_.addTo(graph, "weights pairs", job.pair_counts, sides / 2);
     job.places = scan_.addTo(graph, "weights places", job.firsts, sides);
     job.owners = graph.buffer("tile owners", [&graph, sides, places = job.places] {
         return entriesOf(graph, places, sides) * sizeof(uint);
     });
     addPlaces(graph, job);
-    graph.run({job.entries, job.slots, job.owners});
+    graph.run({job.entries, job.slots, job.owners, job.pair_first});
     job.times.insert(job.times.end(), graph.times().begin(), graph.times().end());
     WeightLists lists{input,
                       {},
@@ -196,11 +202,15 @@ WeightLists WeightListPasses::list(Job& job, const WeightInput& input, const std
                       graph.take(job.entries),
                       graph.take(job.slots),
                       graph.take(job.owners),
+                      graph.take(job.pair_first),
                       begin,
+                      {},
                       {},
                       std::move(job.times)};
     for (uint& entry : lists.entry_begin) entry /= 2;
     lists.slot_begin = copyOf(lists.slots, job.tiles() + 1);
+    const auto pairs = lists.pair_first.read<uint>(sides / 2 + 1);
+    for (const uint entry : lists.entry_begin) lists.pair_begin.push_back(pairs[entry]);
     return lists;
 }
 
@@ -219,6 +229,7 @@ std::optional<WeightLists> WeightListPasses::make(const WeightInput& input) {
     const std::vector<uint> begin = copyOf(*job.offset_buffer, job.tiles() + 1);
     if (!listsFit(begin)) return std::nullopt;
     WeightLists lists = list(job, input, begin);
+    if (lists.pair_begin.back() == kOverflow) return std::nullopt;
     lists.map = std::move(map);
     return lists;
 }

@@ -15,8 +15,8 @@ namespace edgewise::vulkan {
 #include "shaders/shared/weight_layouts.glsl"
 
 static_assert(sizeof(GpuCarrierLine) == sizeof(CarrierLine) && sizeof(GpuRowOwner) == 16);
-static_assert(sizeof(GpuPixelState) == 96);
-static_assert(sizeof(GpuTileSegment) == 12 && sizeof(WeightListPush) == 48);
+static_assert(sizeof(GpuTileSegment) == 16 && sizeof(WeightListPush) == 48);
+static_assert(sizeof(GpuPair) == 20 && sizeof(GpuPixelState) == 8 && sizeof(GpuBorderNote) == 32);
 
 /// An area whose boxes are weighed.
 struct WeightInput {
@@ -32,11 +32,12 @@ struct WeightInput {
 struct WeightLists {
     WeightInput input;
     std::shared_ptr<const WeightMap> map;
-    Buffer offsets;  ///< uint by tile, and the end: twice those into entries
-    Buffer entries;  ///< GpuTileSegment: ids of `map`, places among the tile's owners
-    Buffer slots;    ///< uint by tile, and the end: into owners
-    Buffer owners;   ///< ascending within a tile
-    std::vector<uint> entry_begin, slot_begin;  ///< by tile, and the end
+    Buffer offsets;     ///< uint by tile, and the end: twice those into entries
+    Buffer entries;     ///< GpuTileSegment: ids of `map`, places among the tile's owners
+    Buffer slots;       ///< uint by tile, and the end: into owners
+    Buffer owners;      ///< ascending within a tile
+    Buffer pair_first;  ///< uint by entry, and the end: pixels that the entries before it may touch
+    std::vector<uint> entry_begin, slot_begin, pair_begin;  ///< by tile, and the end
     std::vector<PassTime> times;
 
     std::size_t columns() const {

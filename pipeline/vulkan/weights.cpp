@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "analytic/segment_tiles.h"
+
 namespace edgewise::vulkan {
 namespace {
 
@@ -13,16 +15,29 @@ namespace {
 /// shaded.
 constexpr std::size_t kMostSumBytes = std::size_t{30} << 20;
 
+/// Of a box's pairs of a segment and a pixel, and their notes.
+constexpr std::size_t kMostPairBytes = std::size_t{80} << 20;
+constexpr std::size_t kPairBytes = sizeof(GpuPair) + kNotesPerPair * sizeof(GpuBorderNote);
+
 constexpr std::uint32_t kMostGroups = 65535;
+constexpr std::uint32_t kGroup = 64;
 constexpr std::size_t kTilePixels = std::size_t{kTilePx} * kTilePx;
 
 Buffer numbersOf(const Device& device, const WeightKernel& kernel, Precision precision) {
-    if (precision == Precision::kFp64) return bufferOf(device, "kernel", kernel.numbers);
-    return bufferOf(device, "kernel", std::vector<float>(kernel.numbers.begin(), kernel.numbers.end()));
+    assert(kernel.numbers.size() <= kKernelNumbers);
+    std::vector<double> all = kernel.numbers;
+    all.resize(kKernelNumbers, 0.0);
+    if (precision == Precision::kFp64) return bufferOf(device, "kernel", all);
+    return bufferOf(device, "kernel", std::vector<float>(all.begin(), all.end()));
 }
 
 const char* shaderOf(Precision precision) {
     return precision == Precision::kFp64 ? "weights_fp64.comp" : "weights_fp32.comp";
+}
+
+Groups groupsOf(std::size_t count) {
+    const auto groups = static_cast<std::uint32_t>(count), row = std::min(groups, kMostGroups);
+    return {row, row == 0 ? 0 : (groups + row - 1) / row};
 }
 
 /// Between dispatches that read what the last has written.
@@ -56,7 +71,7 @@ struct BoxTiles {
         sum_first.push_back(0);
         for (std::size_t t = 0; t < columns * rows; ++t) {
             const std::size_t at = listed(t);
-            longest = std::max<std::size_t>(longest, lists.entry_begin[at + 1] - lists.entry_begin[at]);
+            pairs += lists.pair_begin[at + 1] - lists.pair_begin[at];
             sum_first.push_back(sum_first.back() + lists.slot_begin[at + 1] - lists.slot_begin[at]);
         }
     }
@@ -66,7 +81,7 @@ struct BoxTiles {
     }
 
     std::size_t columns, rows, first, list_columns;
-    std::size_t longest = 0;      ///< entries of a tile
+    std::size_t pairs = 0;
     std::vector<uint> sum_first;  ///< by tile: owners before it; and the end
 };
 
@@ -82,13 +97,11 @@ struct WeightPasses::Job {
 
     std::size_t pixels() const { return static_cast<std::size_t>(box.width()) * box.height(); }
     std::size_t sumBytes() const { return tiles.sum_first.back() * kTilePixels * sizeof(FixedWeight); }
-    Groups groups() const {
-        const auto count = static_cast<std::uint32_t>(tiles.count()), row = std::min(count, kMostGroups);
-        return {row, (count + row - 1) / row};
-    }
-    WeightPush push(const LaneKernel& kernel) const {
+    std::size_t pairBytes() const { return tiles.pairs * kPairBytes; }
+    WeightPush push(const LaneKernel& kernel, Groups groups) const {
         return {kernel.radius,
                 kernel.inner_radius,
+                kernel.radius + f64::kReachSlackPx,
                 lists.input.offset_px.x,
                 lists.input.offset_px.y,
                 box.x0,
@@ -99,8 +112,9 @@ struct WeightPasses::Job {
                 static_cast<uint>(tiles.columns),
                 0,
                 0,
+                0,
                 lists.map->rowBegin(),
-                groups().x,
+                groups.x,
                 static_cast<uint>(tiles.first),
                 static_cast<uint>(tiles.list_columns)};
     }
@@ -109,8 +123,8 @@ struct WeightPasses::Job {
     const PixelBox box;
     const BoxTiles tiles;
     const Buffer sum_first;
-    Resource sums = 0, states = 0, kinds = 0, counts = 0, status = 0, handed_list = 0, out_offsets = 0,
-             out_owners = 0, out_weights = 0;
+    Resource pairs = 0, notes = 0, sums = 0, states = 0, kinds = 0, counts = 0, reports = 0, handed_list = 0,
+             out_offsets = 0, out_owners = 0, out_weights = 0;
     std::vector<HandedPixel> handed;
 
     std::size_t listedTileOf(std::size_t pixel) const {
@@ -168,7 +182,7 @@ struct WeightPasses::Job {
         all[kWeightOffsets] = lists.offsets, all[kWeightEntries] = lists.entries;
         all[kWeightSlots] = lists.slots, all[kWeightOwners] = lists.owners;
         all[kWeightRowOffsets] = lists.map->rowOffsets(), all[kWeightRows] = lists.map->rows();
-        all[kWeightSumFirst] = sum_first;
+        all[kWeightSumFirst] = sum_first, all[kWeightPairFirst] = lists.pair_first;
         return all;
     }
 };
@@ -180,17 +194,20 @@ WeightPasses::WeightPasses(const Device& device, const Prefilter& filter, const 
       kernel_(filter, options.precision),
       numbers_(numbersOf(device, kernel_, options.precision)),
       lists_(device, filter.radius),
-      terms_(device, shaderOf(options.precision), kWeightBindings, sizeof(WeightPush), kernel_.constants),
+      pairs_(device, "weights_pairs.comp", kWeightBindings, sizeof(WeightPush)),
+      terms_(device, shaderOf(options.precision), BufferSlots(kWeightBindings, kWeightNumbers),
+             sizeof(WeightPush), kernel_.constants),
       finish_(device, "weights_finish.comp", kWeightBindings, sizeof(WeightPush),
               {kernel_.kernel.lanes.form != kStripTerm ? 1u : 0u,
-               static_cast<std::uint32_t>(grantedTurns(device.traits()))}),
+               static_cast<std::uint32_t>(grantedTurns(device.traits()) / 2)}),
       fill_(device, "weights_fill.comp", kWeightBindings, sizeof(WeightPush)),
       scan_(device) {}
 
 std::optional<WeightEntries> WeightPasses::addTo(PassGraph& graph, const WeightLists& lists,
                                                  const PixelBox& box) {
     const auto job = std::make_shared<Job>(device_, lists, box);
-    if (job->sumBytes() > kMostSumBytes) return std::nullopt;
+    if (job->sumBytes() > kMostSumBytes || job->pairBytes() > kMostPairBytes) return std::nullopt;
+    addPairs(graph, job);
     addTerms(graph, job);
     addFinish(graph, job);
     addFill(graph, job);
@@ -198,30 +215,52 @@ std::optional<WeightEntries> WeightPasses::addTo(PassGraph& graph, const WeightL
                          [=, &graph] { return entriesOf(graph, job->out_offsets, job->pixels()); }};
 }
 
-/// As many dispatches as the turns that a device grants ask for.
+/// A dispatch a row of tiles: their entries follow one another.
+void WeightPasses::recordPairs(const PassContext& pass, const Job& job) {
+    pairs_.forgetSets();
+    auto buffers = job.bindings(numbers_);
+    buffers[kWeightPairs] = pass[job.pairs];
+    uint named = 0;
+    for (std::size_t row = 0; row < job.tiles.rows; ++row) {
+        const std::size_t first = job.tiles.listed(row * job.tiles.columns), end = first + job.tiles.columns;
+        const uint entry = job.lists.entry_begin[first], count = job.lists.entry_begin[end] - entry;
+        const Groups groups = groupsOf((count + kGroup - 1) / kGroup);
+        WeightPush push = job.push(kernel_.kernel.lanes, groups);
+        push.first = entry, push.count = count, push.pairs_before = job.lists.pair_begin[first] - named;
+        if (count > 0) pairs_.dispatch(pass.commands, buffers, groups, push);
+        named += job.lists.pair_begin[end] - job.lists.pair_begin[first];
+    }
+}
+
+void WeightPasses::addPairs(PassGraph& graph, const std::shared_ptr<Job>& job) {
+    job->pairs = graph.buffer("pairs", [=] { return job->tiles.pairs * sizeof(GpuPair); });
+    graph.add("weights pairs", {.reads = {},
+                                .writes = {job->pairs},
+                                .record = [=, this](const PassContext& pass) { recordPairs(pass, *job); }});
+}
+
 void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
     terms_.forgetSets();
-    pass.commands.fillBuffer(pass[job.sums].handle(), 0, VK_WHOLE_SIZE, 0);
+    for (const Resource empty : {job.sums, job.states})
+        pass.commands.fillBuffer(pass[empty].handle(), 0, VK_WHOLE_SIZE, 0);
     waitFor(vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite, pass.commands);
     auto buffers = job.bindings(numbers_);
+    buffers[kWeightPairs] = pass[job.pairs], buffers[kWeightNotes] = pass[job.notes];
     buffers[kWeightSums] = pass[job.sums], buffers[kWeightStates] = pass[job.states];
-    WeightPush push = job.push(kernel_.kernel.lanes);
-    const std::size_t most = grantedTurns(device_.traits()) / (kernel_.turns + 1);
-    push.count =
-        static_cast<uint>(std::clamp<std::size_t>(most, 1, std::max<std::size_t>(job.tiles.longest, 1)));
-    do {
-        terms_.dispatch(pass.commands, buffers, job.groups(), push);
-        waitFor(vk::PipelineStageFlagBits::eComputeShader, vk::AccessFlagBits::eShaderWrite, pass.commands);
-        push.first += push.count;
-    } while (push.first < job.tiles.longest);
+    const Groups groups = groupsOf((job.tiles.pairs + kGroup - 1) / kGroup);
+    WeightPush push = job.push(kernel_.kernel.lanes, groups);
+    push.count = static_cast<uint>(job.tiles.pairs);
+    if (push.count > 0) terms_.dispatch(pass.commands, buffers, groups, push);
 }
 
 void WeightPasses::addTerms(PassGraph& graph, const std::shared_ptr<Job>& job) {
+    job->notes = graph.buffer("border notes",
+                              [=] { return job->tiles.pairs * kNotesPerPair * sizeof(GpuBorderNote); });
     job->sums = graph.buffer("sums", [=] { return job->sumBytes(); });
     job->states = graph.buffer("pixel states",
                                [=] { return job->tiles.count() * kTilePixels * sizeof(GpuPixelState); });
-    graph.add("weights", {.reads = {},
-                          .writes = {job->sums, job->states},
+    graph.add("weights", {.reads = {job->pairs},
+                          .writes = {job->notes, job->sums, job->states},
                           .record = [=, this](const PassContext& pass) { recordTerms(pass, *job); }});
 }
 
@@ -229,33 +268,38 @@ void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) 
     job->kinds =
         graph.buffer("pixel kinds", [=] { return job->tiles.count() * kTilePixels * 2 * sizeof(uint); });
     job->counts = graph.buffer("entry counts", [=] { return job->pixels() * sizeof(uint); });
-    job->status = graph.buffer("weights status", [] { return sizeof(GpuWeightStatus); });
-    job->handed_list = graph.buffer("pixels handed back", [=] { return job->pixels() * sizeof(uint); });
+    job->reports = graph.buffer("tile reports", [=] { return job->tiles.count() * sizeof(GpuTileReport); });
+    job->handed_list = graph.buffer("pixels handed back", [=] { return (1 + job->pixels()) * sizeof(uint); });
     graph.add(
         "weights finish",
-        {.reads = {job->sums, job->states},
-         .writes = {job->sums, job->kinds, job->counts, job->status, job->handed_list},
+        {.reads = {job->notes, job->sums, job->states},
+         .writes = {job->sums, job->kinds, job->counts, job->reports, job->handed_list},
          .record = [=, this](const PassContext& pass) {
-             pass.commands.fillBuffer(pass[job->status].handle(), 0, VK_WHOLE_SIZE, 0);
+             pass.commands.fillBuffer(pass[job->reports].handle(), 0, VK_WHOLE_SIZE, 0);
+             pass.commands.fillBuffer(pass[job->handed_list].handle(), 0, sizeof(uint), 0);
              waitFor(vk::PipelineStageFlagBits::eTransfer, vk::AccessFlagBits::eTransferWrite, pass.commands);
              auto buffers = job->bindings(numbers_);
-             buffers[kWeightStatus] = pass[job->status], buffers[kWeightHanded] = pass[job->handed_list];
+             buffers[kWeightReports] = pass[job->reports], buffers[kWeightHanded] = pass[job->handed_list];
+             buffers[kWeightNotes] = pass[job->notes];
              buffers[kWeightSums] = pass[job->sums], buffers[kWeightStates] = pass[job->states];
              buffers[kWeightPixels] = pass[job->kinds], buffers[kWeightCounts] = pass[job->counts];
              finish_.forgetSets();
-             finish_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
+             const Groups groups = groupsOf(job->tiles.count());
+             finish_.dispatch(pass.commands, buffers, groups, job->push(kernel_.kernel.lanes, groups));
          }});
-    graph.add("weights on the host", {.reads = {job->status, job->handed_list, job->counts},
+    graph.add("weights on the host", {.reads = {job->reports, job->handed_list, job->counts},
                                       .writes = {job->counts},
                                       .host = [=, this](const PassGraph& g) { makeOnHost(g, *job); }});
 }
 
 /// Counts what the device has made, and makes the pixels that it handed back.
 void WeightPasses::makeOnHost(const PassGraph& graph, Job& job) {
-    const GpuWeightStatus status = graph[job.status].read<GpuWeightStatus>(1)[0];
-    report_.terms += status.terms, report_.interior_pixels += status.whole, report_.handed += status.handed;
+    for (const GpuTileReport& tile : graph[job.reports].read<GpuTileReport>(job.tiles.count()))
+        report_.terms += tile.terms, report_.interior_pixels += tile.whole;
+    const uint handed_back = graph[job.handed_list].read<uint>(1)[0];
+    report_.handed += handed_back;
     job.handed.clear();
-    for (const uint pixel : graph[job.handed_list].read<uint>(status.handed))
+    for (const uint pixel : graph[job.handed_list].read<uint>(handed_back, sizeof(uint)))
         job.handed.push_back({pixel, {}});
     const auto counts = graph[job.counts].view<uint>(job.pixels());
     tbb::enumerable_thread_specific<WeightWorker> workers([&] { return WeightWorker(filter_, options_); });
@@ -287,7 +331,8 @@ void WeightPasses::addFill(PassGraph& graph, const std::shared_ptr<Job>& job) {
                    buffers[kWeightOutOwners] = pass[job->out_owners];
                    buffers[kWeightOutWeights] = pass[job->out_weights];
                    fill_.forgetSets();
-                   fill_.dispatch(pass.commands, buffers, job->groups(), job->push(kernel_.kernel.lanes));
+                   const Groups groups = groupsOf(job->tiles.count());
+                   fill_.dispatch(pass.commands, buffers, groups, job->push(kernel_.kernel.lanes, groups));
                }});
     graph.add("weights from the host", {.reads = {job->out_offsets, job->out_owners, job->out_weights},
                                         .writes = {job->out_owners, job->out_weights},

@@ -35,17 +35,19 @@ class WeightPasses {
     /// What the boxes of an area share; nullopt where it has more than the device is given at once: halve it.
     std::optional<WeightLists> listsOf(const WeightInput& input) { return lists_.make(input); }
 
-    /// Of whole tiles, but for the area's end; nullopt where the box has more owners than are weighed at
-    /// once: halve it. The lists outlive the graph's runs.
+    /// Of whole tiles, but for the area's end; nullopt where the box has more owners or pairs of segment
+    /// and pixel than are weighed at once: halve it. The lists outlive the graph's runs.
     std::optional<WeightEntries> addTo(PassGraph& graph, const WeightLists& lists, const PixelBox& box);
 
     const WeightReport& report() const { return report_; }
 
   private:
     struct Job;
+    void addPairs(PassGraph& graph, const std::shared_ptr<Job>& job);
     void addTerms(PassGraph& graph, const std::shared_ptr<Job>& job);
     void addFinish(PassGraph& graph, const std::shared_ptr<Job>& job);
     void addFill(PassGraph& graph, const std::shared_ptr<Job>& job);
+    void recordPairs(const PassContext& pass, const Job& job);
     void recordTerms(const PassContext& pass, const Job& job);
     void makeOnHost(const PassGraph& graph, Job& job);
 
@@ -55,7 +57,7 @@ class WeightPasses {
     WeightKernel kernel_;
     Buffer numbers_;
     WeightListPasses lists_;
-    ComputePass terms_, finish_, fill_;
+    ComputePass pairs_, terms_, finish_, fill_;
     Scan scan_;
     WeightReport report_;
 };

@@ -9,11 +9,21 @@ struct Piece {
 EDGEWISE_FN work phi1Mean(EDGEWISE_IN(RuleView) rule, work h, work t, work step) {
     int count = rule.count;
     work sum = splatWork(EDGEWISE_WORK(0.0));
-    for (int i = 0; i < count; ++i) {
+    EDGEWISE_UNROLL for (int i = 0; i < count; ++i) {
         work at = t + step * EDGEWISE_AT(rule.node, i);
         sum = sum + EDGEWISE_AT(rule.weight, i) * phi1(h * h + at * at);
     }
     return sum;
+}
+
+/// The sum of phi1Mean() over a piece's equal parts, those of the lanes that are `mine`.
+EDGEWISE_FN work phi1MeanOfParts(EDGEWISE_IN(RuleView) rule, work_mask mine, work parts, work h, work t, work step) {
+    work sum = splatWork(EDGEWISE_WORK(0.0));
+    for (work_number i = EDGEWISE_WORK(0.0); anyLane(EDGEWISE_BOTH(i < parts, mine)); i += EDGEWISE_WORK(1.0)) {
+        work here = phi1Mean(rule, h, t + step * i, step);
+        sum = sum + (i < parts ? here : splatWork(EDGEWISE_WORK(0.0)));
+    }
+    return sum / parts;
 }
 
 /// Mean of phi1 over the piece: equal parts of at most 3 sigma, each with the smallest rule that is proven for it.
@@ -28,20 +38,14 @@ EDGEWISE_FN work gaussianMean(EDGEWISE_KERNEL_IN work h, Piece piece) {
     work hs = h * numberOf(kernel.inverse_reach);
     work ts = start * numberOf(kernel.inverse_reach);
     work step = piece.len * numberOf(kernel.inverse_reach) / parts;
+    work_mask first = part <= numberOf(kernel.piece_rules[0].limit_sigma);
+    work_mask third = part > numberOf(kernel.piece_rules[1].limit_sigma);
+    work_mask second = EDGEWISE_BOTH(part > numberOf(kernel.piece_rules[0].limit_sigma),
+                                     part <= numberOf(kernel.piece_rules[1].limit_sigma));
     work mean = splatWork(EDGEWISE_WORK(0.0));
-    work_number lower = EDGEWISE_WORK(-1.0);
-    for (int r = 0; r < kPieceRules; ++r) {
-        work_number upper = numberOf(kernel.piece_rules[r].limit_sigma);
-        work_mask mine = r == kPieceRules - 1 ? part > lower : EDGEWISE_BOTH(part > lower, part <= upper);
-        lower = upper;
-        if (!anyLane(mine)) continue;
-        work sum = splatWork(EDGEWISE_WORK(0.0));
-        for (work_number i = EDGEWISE_WORK(0.0); anyLane(EDGEWISE_BOTH(i < parts, mine)); i += EDGEWISE_WORK(1.0)) {
-            work here = phi1Mean(kernel.piece_rules[r].rule, hs, ts + step * i, step);
-            sum = sum + (i < parts ? here : splatWork(EDGEWISE_WORK(0.0)));
-        }
-        mean = mine ? sum / parts : mean;
-    }
+    if (anyLane(first)) mean = first ? phi1MeanOfParts(kernel.piece_rules[0].rule, first, parts, hs, ts, step) : mean;
+    if (anyLane(second)) mean = second ? phi1MeanOfParts(kernel.piece_rules[1].rule, second, parts, hs, ts, step) : mean;
+    if (anyLane(third)) mean = third ? phi1MeanOfParts(kernel.piece_rules[2].rule, third, parts, hs, ts, step) : mean;
     return mean;
 }
 
@@ -52,11 +56,11 @@ EDGEWISE_FN work polyMean(EDGEWISE_KERNEL_IN work h, Piece piece) {
     work ts = piece.t1 / numberOf(kernel.radius);
     work step = piece.len / numberOf(kernel.radius);
     work mean = splatWork(EDGEWISE_WORK(0.0));
-    for (int i = 0; i < nodes; ++i) {
+    EDGEWISE_UNROLL for (int i = 0; i < nodes; ++i) {
         work at = ts + step * EDGEWISE_AT(kernel.poly_rule.node, i);
         work q = hs * hs + at * at;
         work g = splatWork(EDGEWISE_AT(kernel.poly, nodes - 1));
-        for (int k = nodes - 2; k >= 0; --k) g = g * q + EDGEWISE_AT(kernel.poly, k);
+        EDGEWISE_UNROLL for (int k = nodes - 2; k >= 0; --k) g = g * q + EDGEWISE_AT(kernel.poly, k);
         mean = mean + EDGEWISE_AT(kernel.poly_rule.weight, i) * g;
     }
     return mean;

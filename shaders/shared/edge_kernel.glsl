@@ -1,11 +1,7 @@
 // GLSL only: what analytic/lane_kernel.h is in C++. A kernel's numbers lie in one buffer, `kernel_numbers`, which its parts
 // are places in: WeightKernel in pipeline/vulkan/weight_kernel.cpp fills it in this order.
 
-struct EdgeInput {
-    double sample_x, sample_y;
-    double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, len;
-    double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
-};
+#include "shared/edge_input.glsl"
 
 struct RuleView {
     int count, node, weight;
@@ -27,6 +23,9 @@ const int kStripTerm = 4;
 
 const double kLongestPieceSigmas = EDGEWISE_REAL(3.0);
 const int kPieceRules = 3;
+const int kMostCellNodes = 24;
+const int kMostIntervals = 32;
+#define EDGEWISE_BY_INVOCATION
 
 layout(constant_id = 0) const int kForm = 0;
 layout(constant_id = 1) const int kRule0 = 0;

@@ -36,52 +36,122 @@ EDGEWISE_FN work kernelIntegral(EDGEWISE_IN(TableView) table, work y) {
     return y < EDGEWISE_AT(table.knot, table.intervals) ? K : splatWork(EDGEWISE_WORK(1.0));
 }
 
-/// int K(x) k(y) dt over a piece inside cell (i, j).
+/// int K(x) k(y) dt over a piece inside cell (i, j). A coefficient is read once for all nodes.
 EDGEWISE_FN work cellTerm(EDGEWISE_IN(TableView) table, EDGEWISE_IN(WorkLine) line, int i, int j, work t, work step) {
     int nodes = table.rule.count;
     int n = table.k_count;
-    work sum = splatWork(EDGEWISE_WORK(0.0));
-    for (int q = 0; q < nodes; ++q) {
+    work u[kMostCellNodes], v[kMostCellNodes], K[kMostCellNodes], k[kMostCellNodes];
+    EDGEWISE_UNROLL for (int q = 0; q < nodes; ++q) {
         work at = t + step * EDGEWISE_AT(table.rule.node, q);
-        work u = (line.foot_x + at * line.d_x - EDGEWISE_AT(table.centre, i)) * EDGEWISE_AT(table.inverse_half, i);
-        work v = (line.foot_y + at * line.d_y - EDGEWISE_AT(table.centre, j)) * EDGEWISE_AT(table.inverse_half, j);
-        sum = sum + EDGEWISE_AT(table.rule.weight, q) * (horner(table.K + i * (n + 1), n + 1, u) * horner(table.k + j * n, n, v));
+        u[q] = (line.foot_x + at * line.d_x - EDGEWISE_AT(table.centre, i)) * EDGEWISE_AT(table.inverse_half, i);
+        v[q] = (line.foot_y + at * line.d_y - EDGEWISE_AT(table.centre, j)) * EDGEWISE_AT(table.inverse_half, j);
+        K[q] = splatWork(EDGEWISE_AT(table.K, i * (n + 1) + n));
+        k[q] = splatWork(EDGEWISE_AT(table.k, j * n + n - 1));
     }
+    for (int c = n - 1; c >= 0; --c) {
+        work_number next = EDGEWISE_AT(table.K, i * (n + 1) + c);
+        EDGEWISE_UNROLL for (int q = 0; q < nodes; ++q) K[q] = K[q] * u[q] + next;
+    }
+    for (int c = n - 2; c >= 0; --c) {
+        work_number next = EDGEWISE_AT(table.k, j * n + c);
+        EDGEWISE_UNROLL for (int q = 0; q < nodes; ++q) k[q] = k[q] * v[q] + next;
+    }
+    work sum = splatWork(EDGEWISE_WORK(0.0));
+    EDGEWISE_UNROLL for (int q = 0; q < nodes; ++q) sum = sum + EDGEWISE_AT(table.rule.weight, q) * (K[q] * k[q]);
     return sum * step;
 }
 
+/// A part of the line, [from, to]; nothing where from >= to.
+struct LinePart {
+    work from, to;
+};
+
+/// A line that is cut along the table's cells.
+struct CutLine {
+    WorkLine line;
+    work inverse_x, inverse_y;
+    work_mask rightwards;
+    LinePart whole;
+};
+
+EDGEWISE_FN CutLine cutLineOf(EDGEWISE_IN(WorkLine) line, work t1, work t2) {
+    CutLine cut;
+    cut.line = line;
+    cut.inverse_x = EDGEWISE_WORK(1.0) / nonZeroWork(line.d_x);
+    cut.inverse_y = EDGEWISE_WORK(1.0) / nonZeroWork(line.d_y);
+    cut.rightwards = nonZeroWork(line.d_x) > EDGEWISE_WORK(0.0);
+    cut.whole.from = t1;
+    cut.whole.to = t2;
+    return cut;
+}
+
+EDGEWISE_FN LinePart between(EDGEWISE_IN(LinePart) part, work one, work other) {
+    LinePart inner_part;
+    inner_part.from = larger(part.from, smaller(one, other));
+    inner_part.to = smaller(part.to, larger(one, other));
+    return inner_part;
+}
+
+/// What of the line column i holds. The last one has no right border: whether the segment leaves there was decided by
+/// its ends.
+EDGEWISE_FN LinePart columnPart(EDGEWISE_IN(TableView) table, EDGEWISE_IN(CutLine) cut, int i) {
+    work far = splatWork(kFar);
+    work before = (EDGEWISE_AT(table.knot, i) - cut.line.foot_x) * cut.inverse_x;
+    work border = (EDGEWISE_AT(table.knot, i + 1) - cut.line.foot_x) * cut.inverse_x;
+    return between(cut.whole, before, i + 1 < table.intervals ? border : (cut.rightwards ? far : -far));
+}
+
+/// What row j holds of a column's part.
+EDGEWISE_FN LinePart rowPart(EDGEWISE_IN(TableView) table, EDGEWISE_IN(CutLine) cut, int j, EDGEWISE_IN(LinePart) column) {
+    work before = (EDGEWISE_AT(table.knot, j) - cut.line.foot_y) * cut.inverse_y;
+    work after = (EDGEWISE_AT(table.knot, j + 1) - cut.line.foot_y) * cut.inverse_y;
+    return between(column, before, after);
+}
+
+/// int K(x) k(y) dt over the part in cell (i, j), 0 where there is none.
+EDGEWISE_FN work partTerm(EDGEWISE_IN(TableView) table, EDGEWISE_IN(CutLine) cut, int i, int j, EDGEWISE_IN(LinePart) part) {
+    // the whole segment's length is known better than t_b - t_a
+    work_mask whole = EDGEWISE_BOTH(part.from == cut.line.t_a, part.to == cut.line.t_b);
+    work here = cellTerm(table, cut.line, i, j, part.from, whole ? cut.line.len : part.to - part.from);
+    return part.from < part.to ? here : splatWork(EDGEWISE_WORK(0.0));
+}
+
+#ifdef EDGEWISE_BY_INVOCATION
+/// int K(x) k(y) dt over [t1, t2], in the fixed order of the cells; each invocation visits its own: those that run
+/// together all do what one of them does.
+work stripSum(TableView table, WorkLine line, work t1, work t2) {
+    CutLine cut = cutLineOf(line, t1, t2);
+    int met[2 * kMostIntervals + 1], count = 0;
+    for (int i = 0; i < table.intervals; ++i) {
+        LinePart column = columnPart(table, cut, i);
+        for (int j = 0; j < table.intervals && column.from < column.to; ++j) {
+            LinePart part = rowPart(table, cut, j, column);
+            if (part.from < part.to && count <= 2 * kMostIntervals) met[count++] = i * table.intervals + j;
+        }
+    }
+    work sum = splatWork(EDGEWISE_WORK(0.0));
+    for (int k = 0; k < count; ++k) {
+        int i = met[k] / table.intervals, j = met[k] % table.intervals;
+        sum = sum + partTerm(table, cut, i, j, rowPart(table, cut, j, columnPart(table, cut, i)));
+    }
+    return sum;
+}
+#else
 /// int K(x) k(y) dt over [t1, t2], cell by cell in a fixed order: a cell that a lane does not meet adds 0 to it.
 EDGEWISE_FN work stripSum(EDGEWISE_IN(TableView) table, EDGEWISE_IN(WorkLine) line, work t1, work t2) {
-    int m = table.intervals;
-    work inverse_x = EDGEWISE_WORK(1.0) / nonZeroWork(line.d_x);
-    work inverse_y = EDGEWISE_WORK(1.0) / nonZeroWork(line.d_y);
-    work far = splatWork(kFar);
-    work_mask rightwards = nonZeroWork(line.d_x) > EDGEWISE_WORK(0.0);
+    CutLine cut = cutLineOf(line, t1, t2);
     work sum = splatWork(EDGEWISE_WORK(0.0));
-    work x_before = (EDGEWISE_AT(table.knot, 0) - line.foot_x) * inverse_x;
-    for (int i = 0; i < m; ++i) {
-        // the last column has no right border: whether the segment leaves there was decided by its ends
-        work border = (EDGEWISE_AT(table.knot, i + 1) - line.foot_x) * inverse_x;
-        work x_after = i + 1 < m ? border : (rightwards ? far : -far);
-        work low = larger(t1, smaller(x_before, x_after));
-        work high = smaller(t2, larger(x_before, x_after));
-        x_before = x_after;
-        if (!anyLane(low < high)) continue;
-        work y_before = (EDGEWISE_AT(table.knot, 0) - line.foot_y) * inverse_y;
-        for (int j = 0; j < m; ++j) {
-            work y_after = (EDGEWISE_AT(table.knot, j + 1) - line.foot_y) * inverse_y;
-            work from = larger(low, smaller(y_before, y_after));
-            work to = smaller(high, larger(y_before, y_after));
-            y_before = y_after;
-            work_mask meets = from < to;
-            if (!anyLane(meets)) continue;
-            work_mask whole = EDGEWISE_BOTH(from == line.t_a, to == line.t_b);  // its length is known better than t_b - t_a
-            work here = cellTerm(table, line, i, j, from, whole ? line.len : to - from);
-            sum = sum + (meets ? here : splatWork(EDGEWISE_WORK(0.0)));
+    for (int i = 0; i < table.intervals; ++i) {
+        LinePart column = columnPart(table, cut, i);
+        if (!anyLane(column.from < column.to)) continue;
+        for (int j = 0; j < table.intervals; ++j) {
+            LinePart part = rowPart(table, cut, j, column);
+            if (anyLane(part.from < part.to)) sum = sum + partTerm(table, cut, i, j, part);
         }
     }
     return sum;
 }
+#endif
 
 EDGEWISE_FN EdgeTerm stripTerms(EDGEWISE_KERNEL_IN Line line) {
     double R = kernel.radius;

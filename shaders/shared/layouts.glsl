@@ -212,7 +212,18 @@ const int kBank0Binding = 20;
 const int kBank1Binding = 21;
 const int kBank2Binding = 22;
 const int kBank3Binding = 23;
-const int kShadeBindings = 24;
+const int kEntryPixelsBinding = 24;  // by entry; kAbsent: it has to be looked up
+const int kShadeBindings = 25;
+
+/// Of the pass that tells entries which pixel is theirs.
+struct SignPush {
+    uint pixels;
+    uint row;   // pixels that one row of workgroups takes
+    uint most;  // entries that a pixel signs
+};
+const int kSignOffsetsBinding = 0;
+const int kSignPixelsBinding = 1;
+const int kSignBindings = 2;
 
 // ---- Blending: blend.frag.
 struct BlendPush {

@@ -4,6 +4,7 @@
 #define EDGEWISE_FN
 #define EDGEWISE_EXACT_FN precise
 #define EDGEWISE_PRECISE precise
+#define EDGEWISE_UNROLL [[unroll]]
 #define EDGEWISE_INIT
 #define EDGEWISE_END
 #define EDGEWISE_IN(type) type

@@ -6,7 +6,9 @@ layout(local_size_x = 64) in;
 #include "shared/layouts.glsl"
 #include "shared/weight_layouts.glsl"
 
-layout(std430, binding = kWeightNumbers) readonly buffer Numbers { work kernel_numbers[]; };
+#ifdef EDGEWISE_READS_KERNEL
+layout(std430, binding = kWeightNumbers) uniform Numbers { work kernel_numbers[kKernelNumbers]; };
+#endif
 layout(std430, binding = kWeightSegments) readonly buffer Segments { GpuSegment segments[]; };
 layout(std430, binding = kWeightLines) readonly buffer Lines { GpuCarrierLine lines[]; };
 layout(std430, binding = kWeightOffsets) readonly buffer Offsets { uint offsets[]; };
@@ -22,31 +24,41 @@ layout(std430, binding = kWeightCounts) buffer Counts { uint counts[]; };
 layout(std430, binding = kWeightOutOffsets) readonly buffer OutOffsets { uint out_offsets[]; };
 layout(std430, binding = kWeightOutOwners) writeonly buffer OutOwners { uint out_owners[]; };
 layout(std430, binding = kWeightOutWeights) writeonly buffer OutWeights { int64_t out_weights[]; };
-layout(std430, binding = kWeightStatus) buffer Status { GpuWeightStatus status; };
-layout(std430, binding = kWeightHanded) writeonly buffer Handed { uint handed[]; };
+layout(std430, binding = kWeightReports) buffer Reports { GpuTileReport reports[]; };
+layout(std430, binding = kWeightHanded) buffer Handed { uint handed[]; };
 layout(std430, binding = kWeightSumFirst) readonly buffer SumFirst { uint sum_first[]; };
+layout(std430, binding = kWeightPairFirst) readonly buffer PairFirst { uint pair_first[]; };
+layout(std430, binding = kWeightPairs) buffer Pairs { GpuPair pairs[]; };
+layout(std430, binding = kWeightNotes) buffer Notes { GpuBorderNote notes[]; };
 layout(push_constant) uniform Push { WeightPush push; };
 
-uint tileIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }
-uint stateIndex() { return tileIndex() * 64u + gl_LocalInvocationIndex; }
+/// Of the dispatch's entries, or pairs.
+uint flatIndex() { return (gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex; }
 
-/// The workgroup's tile: its place in the lists, its owners there, and how many sums of the box lie before its own.
+/// Which pixel this invocation sees: the tile of the box, and the place in the tile.
+uint tile_index = 0u, place_in_tile = 0u;
+uint stateIndex() { return tile_index * 64u + place_in_tile; }
+
+/// The tile's place in the lists, its owners there, and how many sums of the box lie before its own.
 uint listed_tile = 0u, owners_begin = 0u, owners_end = 0u, sums_begin = 0u;
 void findTile() {
-    uint row = tileIndex() / push.tile_columns, column = tileIndex() % push.tile_columns;
+    uint row = tile_index / push.tile_columns, column = tile_index % push.tile_columns;
     listed_tile = push.first_tile + row * push.list_columns + column;
     owners_begin = slots[listed_tile];
     owners_end = slots[listed_tile + 1u];
-    sums_begin = sum_first[tileIndex()];
+    sums_begin = sum_first[tile_index];
 }
 
 /// In the box.
 ivec2 pixelInBox() {
-    int tile = int(tileIndex()), lane = int(gl_LocalInvocationIndex), columns = int(push.tile_columns);
+    int tile = int(tile_index), lane = int(place_in_tile), columns = int(push.tile_columns);
     return ivec2(tile % columns, tile / columns) * kTilePx + ivec2(lane % kTilePx, lane / kTilePx);
 }
-bool hasPixel() {
-    if (tileIndex() >= push.tiles) return false;
+/// One workgroup a tile, one invocation a pixel.
+bool findPixel() {
+    tile_index = gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x;
+    place_in_tile = gl_LocalInvocationIndex;
+    if (tile_index >= push.tiles) return false;
     findTile();
     ivec2 at = pixelInBox();
     return at.x < push.width && at.y < push.height;
@@ -56,7 +68,7 @@ double sampleX() { return (double(push.x0 + pixelInBox().x) + 0.5lf) + push.offs
 double sampleY() { return (double(push.y0 + pixelInBox().y) + 0.5lf) + push.offset_y; }
 
 /// The sum of the tile's owner at `place` for this invocation's pixel.
-uint sumIndex(uint place) { return (sums_begin + place) * 64u + gl_LocalInvocationIndex; }
+uint sumIndex(uint place) { return (sums_begin + place) * 64u + place_in_tile; }
 uint ownerCount() { return owners_end - owners_begin; }
 uint ownerAt(uint place) { return owners[owners_begin + place]; }
 

@@ -13,6 +13,7 @@ layout(std430, binding = kListFirsts) writeonly buffer Firsts { uint firsts[]; }
 layout(std430, binding = kListPlaces) readonly buffer Places { uint places[]; };
 layout(std430, binding = kListSlots) writeonly buffer Slots { uint slots[]; };
 layout(std430, binding = kListOwners) writeonly buffer Owners { uint owners[]; };
+layout(std430, binding = kListPairCounts) writeonly buffer PairCounts { uint pair_counts[]; };
 layout(push_constant) uniform Push { WeightListPush push; };
 
 uint groupIndex() { return gl_WorkGroupID.y * push.group_row + gl_WorkGroupID.x; }

@@ -102,7 +102,7 @@ class WeightBars : public testing::TestWithParam<SceneKind> {
             EXPECT_LE(worst.error, kKernelTarget) << filter.name;
             EXPECT_LT(worst.oracle, 1e-30) << filter.name;
             EXPECT_EQ(worst.pixels, std::size_t(4 * reach * reach));
-            EXPECT_GT(worst.partial, std::min<std::size_t>(worst.pixels / 4, 100)) << filter.name;
+            EXPECT_GT(worst.partial, std::size_t(4 * reach)) << filter.name << ": less than two edges across";
         }
         fmt::print("{}, seed {}, {} pixels, worst errors{}\n", nameOf(GetParam()), seed, 4 * reach * reach,
                    text);

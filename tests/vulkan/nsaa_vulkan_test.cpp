@@ -40,5 +40,20 @@ TEST_P(NsaaVulkan, MakesTheCpusPicture) {
 INSTANTIATE_TEST_SUITE_P(Shipped, NsaaVulkan, testing::ValuesIn(edgewise::test::shippedRecipes()),
                          [](const auto& one) { return edgewise::test::nameOf(one.param); });
 
+/// A kernel of more pieces than its shader holds is weighed on the CPU, and the picture says so.
+TEST(NsaaVulkanKernels, OneOfManyPiecesIsTheCpus) {
+    test::device();
+    const auto picture = edgewise::test::shippedPicture(edgewise::test::shippedRecipes()[0], 16);
+    const Prefilter filter = makePrefilter("lanczos", 12.0, {});
+    const auto render = [&](const char* method) {
+        return edgewise::test::renderPicture(picture, filter, edgewise::test::onBlue(), method);
+    };
+    const MethodResult host = render("nsaa:device=cpu"), device = render("nsaa:device=vulkan");
+    ASSERT_FALSE(device.notes.empty());
+    EXPECT_NE(device.notes[0].find("48 polynomial pieces"), std::string::npos) << device.notes[0];
+    EXPECT_EQ(host.image.rgba, device.image.rgba);
+    test::expectNoMessages();
+}
+
 }  // namespace
 }  // namespace edgewise::vulkan
