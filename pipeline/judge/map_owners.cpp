@@ -181,8 +181,9 @@ std::optional<Owner> MapOwners::ownerRightOf(const exact::Region& region) const 
         else
             met.step(walls_[i].left, walls_[i].right);
     }
-    if (lowest) return met.only(1);
-    const double middle = (region.y0 + region.y1) / 2;
+    if (!met.empty()) return met.only(1);
+    // nothing changes there, or several walls touch the side in one point and leave its owner as it was
+    const double middle = (lowest ? static_cast<double>(*lowest) + region.y1 : region.y0 + region.y1) / 2;
     return at({{region.x1, middle}, {-0x1p-76, 0.0}});
 }
 

@@ -107,7 +107,7 @@ double lastPlace(double size, Precision precision) {
 std::size_t judgeWeights(const Weighed& product, const Truth& truth, Precision precision, WeightErrors& out) {
     constexpr double kSizeable = 0x1p-30;
     const double bound = promisedBound(product.terms, precision);
-    const double seen = precision == Precision::kFp64 ? 0x1p-50 : kFloatBound;
+    const double seen = std::max(0x1p-50, bound);  // less may be the rounding of all of a weight
     auto all = truth.weights;
     for (const auto& [owner, weight] : product.weights) all.try_emplace(owner, 0);
     for (const auto& [owner, exact_weight] : all) {
