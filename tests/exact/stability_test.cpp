@@ -104,7 +104,7 @@ TEST(Stability, EveryCaseStaysWithinItsBound) {
 TEST(Stability, SeparableGaussiansOfEverySigmaStayWithinTheirBound) {
     StabilityOptions options;
     options.filters = {makePrefilter("gaussian-separable", {}, {})};
-    options.scenes = 1;
+    options.scenes = 5;  // the fifth leaves an owner of weight 0 a rounding
     options.cases = {"sigma"};
     Progress progress;
     Seen seen;
@@ -112,6 +112,18 @@ TEST(Stability, SeparableGaussiansOfEverySigmaStayWithinTheirBound) {
     for (const StabilityRow& row : rows) expectWithinBounds(row, seen);
     EXPECT_EQ(rows.size(), 5u);  // a decade each, 1e-2 to 1e2
     EXPECT_GT(seen.weights, 10u);
+}
+
+/// Scenes whose edges end on the support's box, some of them several in one point of its right side.
+TEST(Stability, EdgesOfAnyLengthThroughTheSampleStayWithinTheirBound) {
+    StabilityOptions options;
+    options.filters = {makePrefilter("box", {}, {})};
+    options.scenes = 4;
+    options.cases = {"edge-through-sample"};
+    Progress progress;
+    Seen seen;
+    for (const StabilityRow& row : runStability(options, progress)) expectWithinBounds(row, seen);
+    EXPECT_GT(seen.maps.faces, 50u);
 }
 
 /// Hours: every filter of every family, every difficulty, several scenes each.
