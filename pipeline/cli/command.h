@@ -10,6 +10,8 @@ namespace edgewise::cli {
 
 /// `command_line` is what the user typed, for the metadata of outputs.
 void addRender(CLI::App& program, const std::string& command_line);
+void addCompare(CLI::App& program, const std::string& command_line);
+void addCompareWorker(CLI::App& program);  ///< what compare runs, one a method; not for users
 void addWeights(CLI::App& program);
 void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);

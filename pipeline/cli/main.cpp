@@ -30,6 +30,8 @@ void parseAndRun(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(kFooter);
     addRender(program, command_line);
+    addCompare(program, command_line);
+    addCompareWorker(program);
     addWeights(program);
     addInfo(program);
     addMethods(program);

@@ -118,6 +118,7 @@ const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
         {.name = "none",
          .summary = "one sample at the pixel's centre",
+         .own_box = true,
          .choices = {},
          .run = runNone,
          .run_vulkan = kNoneVulkan},
@@ -135,6 +136,7 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "msaa",
          .summary = "N samples a pixel at Vulkan's standard locations, one shade a triangle and pixel",
          .number = MethodEntry::Number::kRequired,
+         .own_box = true,
          .numbers = {2, 4, 8, 16},
          .choices = {},
          .run = runMsaa,
@@ -156,6 +158,8 @@ MethodSpec parseMethod(std::string_view typed) {
     for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
     return spec;
 }
+
+bool takesFilter(const MethodSpec& spec) { return !requireMethod(spec.typed, spec.name).own_box; }
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
     const auto own = spec.parameters.find("device");
