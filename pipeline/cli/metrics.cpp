@@ -57,7 +57,7 @@ void metrics(const MetricsArguments& arguments) {
 constexpr const char* kFooter = R"(
 rmse, max, bias (mean of IMAGE - REFERENCE) and psnr (dB, peak 1; none if the error is 0) are over linear R, G, B;
 edge_rmse and edge_psnr the same over the pixels that REFERENCE's channel `edge` marks (none without one).
-ssim (Wang's, Gaussian window, sigma 1.5, data range 1; none below 11x11 pixels) and flip (mean LDR-FLIP, 67 pixels
+ssim (Wang's, Gaussian window, sigma 1.5, data range 1) and flip (mean LDR-FLIP, 67 pixels
 a degree) are of the sRGB picture, clamped to [0, 1] and not rounded. Alpha is left out. PNGs are sRGB-decoded.)";
 
 }  // namespace

@@ -139,7 +139,7 @@ nlohmann::ordered_json metricsJson(const ErrorMetrics& metrics) {
             {"psnr", orNull(metrics.psnr)},
             {"edge_rmse", orNull(metrics.edge_rmse)},
             {"edge_psnr", orNull(metrics.edge_psnr)},
-            {"ssim", orNull(metrics.ssim)},
+            {"ssim", metrics.ssim},
             {"flip", metrics.flip}};
 }
 

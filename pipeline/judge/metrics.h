@@ -20,7 +20,7 @@ struct ErrorMetrics {
     std::optional<double> psnr;                  ///< dB, peak 1: -20 log10(rmse); none if rmse is 0
     std::optional<double> edge_rmse, edge_psnr;  ///< the same where the reference's `edge` is set; none if
                                                  ///< nowhere, or without the channel (`edge` is empty)
-    std::optional<double> ssim;                  ///< of the sRGB picture, see ssim.h
+    double ssim = 1.0;                           ///< of the sRGB picture, see ssim.h
     double flip = 0.0;                           ///< mean of flipMap()
 };
 

@@ -35,15 +35,21 @@ double ssimAt(double mx, double my, double mxx, double myy, double mxy) {
     return (2.0 * mx * my + kC1) * (2.0 * cov + kC2) / ((mx * mx + my * my + kC1) * (var_x + var_y + kC2));
 }
 
+/// From the border to the first pixel whose window lies in a picture of this size, if there is one.
+int margin(int size) {
+    return size > 2 * kSsimRadius ? kSsimRadius : 0;
+}
+
 double meanSsim(const Plane& x, const Plane& y) {
     const Plane mx = windowMean(x), my = windowMean(y);
     const Plane mxx = windowMean(product(x, x)), myy = windowMean(product(y, y));
     const Plane mxy = windowMean(product(x, y));
-    const int width = x.width - 2 * kSsimRadius, height = x.height - 2 * kSsimRadius;
+    const int left = margin(x.width), top = margin(x.height);
+    const int width = x.width - 2 * left, height = x.height - 2 * top;
     const double sum = sumRows(height, [&](int row) {
         double of_row = 0.0;
-        const int v = row + kSsimRadius;
-        for (int u = kSsimRadius; u < kSsimRadius + width; ++u)
+        const int v = row + top;
+        for (int u = left; u < left + width; ++u)
             of_row += ssimAt(mx.row(v)[u], my.row(v)[u], mxx.row(v)[u], myy.row(v)[u], mxy.row(v)[u]);
         return of_row;
     });
@@ -52,8 +58,7 @@ double meanSsim(const Plane& x, const Plane& y) {
 
 }  // namespace
 
-std::optional<double> ssim(const ImageBuffer& image, const ImageBuffer& reference) {
-    if (std::min(image.box.width(), image.box.height()) <= 2 * kSsimRadius) return {};
+double ssim(const ImageBuffer& image, const ImageBuffer& reference) {
     double sum = 0.0;
     for (int channel = 0; channel < 3; ++channel)
         sum += meanSsim(encodedChannel(image, channel), encodedChannel(reference, channel));

@@ -2,8 +2,6 @@
 // Visibility to Structural Similarity'.
 #pragma once
 
-#include <optional>
-
 #include "pipeline/image_buffer.h"
 
 namespace edgewise::judge {
@@ -16,9 +14,10 @@ inline constexpr int kSsimRadius = 5;      ///< px: the window is 11 x 11
 ///     SSIM = (2 m_x m_y + C1)(2 s_xy + C2) / ((m_x^2 + m_y^2 + C1)(s_x^2 + s_y^2 + C2))     (13) of the
 ///     paper
 /// with Gaussian windows of population moments, data range 1, C1 = 0.01^2, C2 = 0.03^2, averaged over the
-/// pixels whose window lies in the picture. This is scikit-image's structural_similarity(data_range=1,
+/// pixels whose window lies in the picture; where a picture is less than 11 wide (high), along that axis over
+/// all pixels, the border going on beyond it. This is scikit-image's structural_similarity(data_range=1,
 /// gaussian_weights=True, sigma=1.5, use_sample_covariance=False, channel_axis=-1).
-/// Nothing for a picture less than 11 wide or high. The values must be finite.
-std::optional<double> ssim(const ImageBuffer& image, const ImageBuffer& reference);
+/// The values must be finite.
+double ssim(const ImageBuffer& image, const ImageBuffer& reference);
 
 }  // namespace edgewise::judge
