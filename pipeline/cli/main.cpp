@@ -33,6 +33,7 @@ void parseAndRun(int argc, char** argv) {
     addCompare(program, command_line);
     addCompareWorker(program);
     addWeights(program);
+    addMetrics(program);
     addInfo(program);
     addMethods(program);
     addFilters(program);
