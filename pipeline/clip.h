@@ -47,8 +47,9 @@ class ClipVolume {
                          glm::dvec3& p_eye) const;
 
     /// Clips against the planes in `codes`. A new corner depends on its edge's two endpoints alone, not on
-    /// their order: neighbours get the same bits and no crack opens. Fewer than three corners: nothing is
-    /// left.
+    /// their order: neighbours get the same bits and no crack opens. It is off by some 2^-100 of the way from
+    /// its edge's nearer end: below the grid unless both ends are 2^50 times the near plane away. Fewer than
+    /// three corners: nothing is left.
     void clip(ClipPolygon& polygon, std::uint8_t codes) const;
 
   private:

@@ -13,15 +13,22 @@ namespace {
 
 using exact::Real;
 using WorldTriangle = std::array<glm::vec3, 3>;
-constexpr double kU = 0x1p-53;
+constexpr double kU = 0x1p-53, kU2 = kU * kU;
+
+// Roundings of the product's double-double, in units of kU2 (shaders/shared/double_double.glsl).
+constexpr double kSum = 3, kProduct = 7, kScaled = 3, kQuotient = 64;
+constexpr double kEyeSum = 3 * kSum;                         ///< a coordinate: three products join one
+constexpr double kDistanceSum = kScaled + 3 * kSum;          ///< a term of a point's distance to a plane
+constexpr double kWay = kSum + kQuotient + kSum + kProduct;  ///< t (b - a)
 
 /// Clipped this far from the middle of the screen: the guard band, less the room for a debug offset.
 constexpr double kClipBandPx = kGuardBandPx - 4096.0;
 
-/// A point of eye space, how far doubles may have moved it an axis, and whether a plane made it.
+/// A point of eye space, how far doubles may have moved it an axis, how far double-double, and whether a
+/// plane made it.
 struct SolidPoint {
     std::array<Real, 3> p;
-    std::array<double, 3> error{};
+    std::array<double, 3> error{}, fine{};
     bool made = false;
 };
 
@@ -45,6 +52,13 @@ struct Plane {
         double sum = 0.0;
         for (std::size_t k = 0; k < 3; ++k) sum += size(a[k]) * size(q.p[k]);
         return roundings * kU * sum;
+    }
+    /// ... had it the plane's own coefficients.
+    double fine(const SolidPoint& q) const {
+        double sum = kDistanceSum * kU2 * size(b);
+        for (std::size_t k = 0; k < 3; ++k)
+            sum += size(a[k]) * (kDistanceSum * kU2 * size(q.p[k]) + q.fine[k]);
+        return sum;
     }
 };
 
@@ -71,7 +85,7 @@ class Lens {
                 out.p[row] += Real(matrix_[k][row]) * Real(p[k]);
                 sizes += std::abs(matrix_[k][row] * p[k]);
             }
-            out.error[row] = 3 * kU * sizes;
+            out.error[row] = 3 * kU * sizes, out.fine[row] = kEyeSum * kU2 * sizes;
         }
         return out;
     }
@@ -97,15 +111,23 @@ class Lens {
     std::vector<Plane> planes_;
 };
 
-/// Where the plane cuts a -> b. The product knows the ends to twice double's digits, whatever it does with
-/// them elsewhere: only the plane's coefficients move the cut along the edge, and it is rounded.
+/// Where the plane cuts a -> b. The product knows the ends in double-double, whatever it does with them
+/// elsewhere, and goes from the nearer one. What moves the cut along the edge: the plane's coefficients, and
+/// the ends' distances, as t = h_a / (h_a - h_b) passes them on. Then it is rounded.
 SolidPoint cut(const Plane& plane, const SolidPoint& a, const SolidPoint& b) {
     const Real h_a = plane.at(a), fall = h_a - plane.at(b), t = h_a / fall;
     SolidPoint out;
     out.made = true;
     for (std::size_t k = 0; k < 3; ++k) out.p[k] = a.p[k] + t * (b.p[k] - a.p[k]);
-    const double moved = plane.doubt(out) / size(fall);
-    for (std::size_t k = 0; k < 3; ++k) out.error[k] = size(b.p[k] - a.p[k]) * moved + kU * size(out.p[k]);
+    const double moved = plane.doubt(out) / size(fall), of_b = static_cast<double>(t), of_a = size(1 - t);
+    const double fine_moved = (of_a * plane.fine(a) + of_b * plane.fine(b)) / size(fall);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = size(b.p[k] - a.p[k]);
+        out.fine[k] = length * (fine_moved + kWay * kU2 * std::min(of_a, of_b)) +
+                      kSum * kU2 * size(out.p[k]) + of_a * a.fine[k] + of_b * b.fine[k];
+        out.error[k] = length * moved + kU * size(out.p[k]) + out.fine[k];
+    }
+    if (plane.roundings == 0) out.fine[2] = out.error[2] = 0.0;  // the near plane's own
     return out;
 }
 
@@ -123,7 +145,7 @@ Clipped clip(std::vector<SolidPoint> points, const std::vector<Plane>& planes, b
         for (std::size_t i = 0; i < old.size(); ++i) {
             const SolidPoint &here = old[i], &next = old[(i + 1) % old.size()];
             const bool inside = plane.at(here) >= 0;
-            out.doubtful |= !here.made && size(plane.at(here)) <= plane.doubt(here);
+            out.doubtful |= !here.made && size(plane.at(here)) <= plane.doubt(here) + plane.fine(here);
             if (inside) out.points.push_back(here);
             if ((!closed && i + 1 == old.size()) || inside == (plane.at(next) >= 0)) continue;
             out.points.push_back(cut(plane, here, next));

@@ -27,8 +27,9 @@ struct ProjectionErrors {
 };
 
 /// The promise for a vertex: half a diagonal step of the grid; three roundings of a coordinate in eye space,
-/// relative to the sum of its products' sizes, or one where a plane made it, and what that comes to on the
-/// screen; four roundings of the quotient. Takes perspective cameras without a far plane.
+/// relative to the sum of its products' sizes, or one where a plane made it and what double-double loses
+/// on the way there, and what that comes to on the screen; four roundings of the quotient. Takes perspective
+/// cameras without a far plane.
 ProjectionErrors judgeProjection(const std::vector<std::array<glm::vec3, 3>>& world,
                                  const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
                                  const ScreenPieces& pieces);

@@ -229,6 +229,41 @@ TEST(Project, CutsAtTheSmallestAnglesWhereTheTriangleMeetsTheNearPlane) {
     }
 }
 
+/// An edge from just behind the eye to 20 decades farther before it, either way round and to either side: the
+/// digits of the cut come from the near end, which is still 2^22 times the near plane away. The neighbour
+/// gets the same bits.
+TEST(Project, CutsBesideTheEyeWhereTheOtherEndIsFar) {
+    const double znear = 0x1p-53;
+    for (const float side : {1.0f, -1.0f})
+        for (const bool reversed : {false, true}) {
+            const glm::vec3 near_end(side * -3e-10f, 0, 7e-10f), far_end(side * 2.4e9f, 0.7e6f, -5.6e9f);
+            const glm::vec3 above(0, 2, -3), below(0, -2, -3);
+            const glm::vec3 a = reversed ? far_end : near_end, b = reversed ? near_end : far_end;
+            ScreenPieces pieces;
+            const ScreenScene screen =
+                project(test::makeScene({test::makeGeometry({{{a, b, above}}, {{b, a, below}}})}),
+                        test::makePerspective(znear), test::makeFilm(64, 64), pieces);
+            const long double t = (near_end.z + static_cast<long double>(znear)) /
+                                  (static_cast<long double>(near_end.z) - far_end.z);
+            const auto at = [&](int axis) {
+                const long double from = near_end[axis], to = far_end[axis];
+                return static_cast<double>(32 * (from + t * (to - from)) / znear);
+            };
+            const glm::dvec2 cut_px(32 + at(0), 32 - at(1));
+            std::array<std::set<std::pair<double, double>>, 2> found;
+            for (const Owner owner : {0u, 1u})
+                for (const ScreenTriangle& piece : pieces.of(owner, screen))
+                    for (const auto& p : piece.p_px)
+                        if (glm::distance(p, cut_px) < 1.0) found[owner].insert({p.x, p.y});
+            ASSERT_EQ(found[0].size(), 1u);
+            EXPECT_EQ(found[0], found[1]);
+            const glm::dvec2 off =
+                glm::abs(glm::dvec2(found[0].begin()->first, found[0].begin()->second) - cut_px);
+            for (int axis = 0; axis < 2; ++axis)  // four roundings in double, here as there
+                EXPECT_LE(off[axis], kGridPx + 8 * 0x1p-53 * std::abs(cut_px[axis])) << side << reversed;
+        }
+}
+
 TEST(Project, CoplanarTrianglesAndDuplicatesShareDepthBits) {
     const glm::dmat4 world =
         glm::rotate(glm::translate(glm::dmat4(1.0), {0.1, 0.2, -5.3}), 0.7, {1.0, 2.0, 3.0});
