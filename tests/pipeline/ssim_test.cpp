@@ -57,8 +57,7 @@ TEST(Ssim, OfTwoColoursIsTheirLuminanceTerm) {
     EXPECT_NEAR(found, expected, 1e-11);
 }
 
-// Rows that repeat to as many as the window is high, below a picture of fewer, are what its border is beyond
-// it: a picture of one row is one of 11 alike.
+// Beyond a border are its own values, so one row is as good as eleven that are alike.
 TEST(Ssim, OfLessThanAWindowGoesOnBeyondTheBorder) {
     const auto rows = [](int height, double scale) {
         return makePicture(20, height, [&](int x, int) { return glm::dvec3(scale * (x * x % 7)); });
