@@ -11,6 +11,7 @@ namespace edgewise::cli {
 /// `command_line` is what the user typed, for the metadata of outputs.
 void addRender(CLI::App& program, const std::string& command_line);
 void addWeights(CLI::App& program);
+void addPost(CLI::App& program, const std::string& command_line);
 void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);

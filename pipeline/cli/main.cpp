@@ -31,6 +31,7 @@ void parseAndRun(int argc, char** argv) {
     program.footer(kFooter);
     addRender(program, command_line);
     addWeights(program);
+    addPost(program, command_line);
     addInfo(program);
     addMethods(program);
     addFilters(program);
