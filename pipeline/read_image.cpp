@@ -6,113 +6,120 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
+#include "pipeline/gltf_document.h"
 
 namespace edgewise {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
+using Bytes = std::span<const std::uint8_t>;
 
-using Bytes = std::vector<std::uint8_t>;
+constexpr std::array<std::uint8_t, 4> kExrMagic{0x76, 0x2f, 0x31, 0x01};
 
-Bytes readBytes(const std::filesystem::path& path) {
-    std::error_code ignored;
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path, ignored))
-        throw InputError(path.string(), "cannot be opened");
-    Bytes bytes{std::istreambuf_iterator<char>(file), {}};
-    if (file.bad()) throw InputError(path.string(), "cannot be read");
-    return bytes;
+bool isExr(Bytes bytes) {
+    return bytes.size() >= kExrMagic.size() && std::ranges::equal(bytes.first(kExrMagic.size()), kExrMagic);
 }
 
-bool isExr(const Bytes& bytes) {
-    constexpr std::array<std::uint8_t, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
-    return bytes.size() > kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+/// Where an EXR's channels are, counted from `first`, the first one that is read.
+struct Channels {
+    std::array<int, 3> rgb{};
+    std::optional<int> alpha, edge;
+    int first = 0, end = 0;
+};
+
+Channels findChannels(const OIIO::ImageSpec& spec, const std::string& what) {
+    const auto index = [&](const char* name) { return spec.channelindex(name); };
+    std::array<int, 5> found{index("R"), index("G"), index("B"), index("A"), index("edge")};
+    const bool is_grey = index("Y") >= 0 && index("RY") < 0;  // with RY it holds chroma
+    if (std::ranges::count(found.begin(), found.begin() + 3, -1) == 3 && is_grey)
+        std::fill_n(found.begin(), 3, index("Y"));
+    if (std::ranges::count(found.begin(), found.begin() + 3, -1) > 0)
+        throw InputError(what, "has no channels R, G and B");
+    Channels channels;
+    channels.end = *std::ranges::max_element(found) + 1;
+    channels.first = channels.end;
+    for (const int channel : found)
+        if (channel >= 0) channels.first = std::min(channels.first, channel);
+    for (std::size_t c = 0; c < 3; ++c) channels.rgb[c] = found[c] - channels.first;
+    if (found[3] >= 0) channels.alpha = found[3] - channels.first;
+    if (found[4] >= 0) channels.edge = found[4] - channels.first;
+    return channels;
 }
 
-bool isPng(const Bytes& bytes) {
-    return isKnownPicture(bytes) && bytes.front() == 0x89;
+void requireSize(std::uint64_t width, std::uint64_t height, const std::string& what) {
+    if (width * height > kMaxPicturePixels)
+        throw FailureError(what,
+                           fmt::format("{} x {} pixels, the limit is {}", width, height, kMaxPicturePixels));
 }
 
-PictureFile readPng(const Bytes& bytes, const std::string& name) {
-    // Decoded as they are: the curve in double gives back the very code when it is encoded again.
-    const Image png = decodeImage(bytes, ColorEncoding::kLinear, kMaxPixels, name);
-    PictureFile picture{ImageBuffer({0, 0, png.width, png.height}), png.width, png.height};
-    for (std::size_t i = 0; i < png.texels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) picture.image.rgba[i][c] = linearFromSrgb(png.texels[i][c]);
-        picture.image.rgba[i].a = png.texels[i].a;
+ImageBuffer fromFloats(const float* values, const PixelBox& box, const Channels& channels) {
+    ImageBuffer image(box);
+    if (!channels.edge) image.edge.clear();
+    const auto stride = static_cast<std::size_t>(channels.end - channels.first);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        const float* pixel = values + i * stride;
+        image.rgba[i] = {pixel[channels.rgb[0]], pixel[channels.rgb[1]], pixel[channels.rgb[2]],
+                         channels.alpha ? pixel[*channels.alpha] : 1.0};
+        if (channels.edge) image.edge[i] = pixel[*channels.edge];
     }
-    return picture;
+    return image;
 }
 
-int channelNamed(const OIIO::ImageSpec& spec, const char* name) {
-    const auto found = std::ranges::find(spec.channelnames, name);
-    return found == spec.channelnames.end() ? -1 : static_cast<int>(found - spec.channelnames.begin());
+ImageBuffer readExr(Bytes bytes, const std::string& what) {
+    OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+    const auto input = OIIO::ImageInput::open("picture.exr", nullptr, &reader);
+    if (!input) throw InputError(what, "is a damaged EXR: " + OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.deep) throw InputError(what, "is a deep EXR");
+    const Channels channels = findChannels(spec, what);
+    requireSize(static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), what);
+    // Left as it comes: what the file does not fill takes no memory.
+    const auto values =
+        std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(spec.image_pixels()) *
+                                                static_cast<std::size_t>(channels.end - channels.first));
+    if (!input->read_image(0, 0, channels.first, channels.end, OIIO::TypeDesc::FLOAT, values.get()))
+        throw InputError(what, "is a damaged EXR: " + input->geterror());
+    return fromFloats(values.get(), {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height}, channels);
 }
 
-/// Channels of red, green, blue.
-std::array<int, 3> colorChannels(const OIIO::ImageSpec& spec, const std::string& name) {
-    const std::array<int, 3> rgb{channelNamed(spec, "R"), channelNamed(spec, "G"), channelNamed(spec, "B")};
-    if (std::ranges::min(rgb) >= 0) return rgb;
-    const int grey = channelNamed(spec, "Y");
-    if (grey < 0) throw InputError(name, "has neither the channels R, G and B nor Y");
-    return {grey, grey, grey};
+/// The linear value of every number that a sample may be.
+std::vector<double> linearValues(std::uint16_t largest) {
+    std::vector<double> table(std::size_t{largest} + 1);
+    for (std::size_t i = 0; i < table.size(); ++i)
+        table[i] = linearFromSrgb(static_cast<double>(i) / largest);
+    return table;
 }
 
-PictureFile emptyPicture(const OIIO::ImageSpec& spec, const std::string& name) {
-    const std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
-    if (pixels > kMaxPixels)
-        throw FailureError(
-            name, fmt::format("{} x {} pixels, the limit is {}", spec.width, spec.height, kMaxPixels));
-    const int x = spec.x - spec.full_x, y = spec.y - spec.full_y;
-    return {ImageBuffer({x, y, x + spec.width, y + spec.height}), spec.full_width, spec.full_height};
-}
-
-double finite(float value, const PixelBox& box, std::size_t i, const std::string& name) {
-    if (std::isfinite(value)) return value;
-    const std::size_t width = static_cast<std::size_t>(box.width());
-    throw InputError(name,
-                     fmt::format("pixel {},{} is {}, not a number", box.x0 + static_cast<int>(i % width),
-                                 box.y0 + static_cast<int>(i / width), value));
-}
-
-PictureFile readExr(Bytes& bytes, const std::string& name) {
-    OIIO::Filesystem::IOMemReader source(bytes.data(), bytes.size());
-    const auto input = OIIO::ImageInput::open("picture.exr", nullptr, &source);
-    if (!input) throw InputError(name, OIIO::geterror());
-    const OIIO::ImageSpec spec = input->spec();
-    PictureFile picture = emptyPicture(spec, name);
-    const std::array<int, 3> color = colorChannels(spec, name);
-    const int alpha = channelNamed(spec, "A"), edge = channelNamed(spec, "edge");
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> values(picture.image.rgba.size() * channels);
-    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values.data()))
-        throw InputError(name, input->geterror());
-    for (std::size_t i = 0; i < picture.image.rgba.size(); ++i) {
-        const float* pixel = &values[i * channels];
-        const auto read = [&](int c) { return finite(pixel[c], picture.image.box, i, name); };
-        picture.image.rgba[i] = {read(color[0]), read(color[1]), read(color[2]),
-                                 alpha < 0 ? 1.0 : read(alpha)};
-        if (edge >= 0) picture.image.edge[i] = pixel[edge];
+ImageBuffer readEncoded(Bytes bytes, const std::string& what) {
+    const PictureSamples samples = decodeSamples(bytes, kMaxPicturePixels, what);
+    const std::vector<double> linear = linearValues(samples.largest);
+    const auto channels = static_cast<std::size_t>(samples.channels);
+    const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
+    ImageBuffer image({0, 0, samples.width, samples.height});
+    image.edge.clear();
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        const std::uint16_t* value = &samples.values[i * channels];
+        image.rgba[i] = {linear[value[0]], linear[value[is_grey ? 0 : 1]], linear[value[is_grey ? 0 : 2]],
+                         has_alpha ? double(value[channels - 1]) / samples.largest : 1.0};
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
 
-PictureFile readImage(const std::filesystem::path& path) {
-    Bytes bytes = readBytes(path);
-    if (isPng(bytes)) return readPng(bytes, path.string());
-    if (isExr(bytes)) return readExr(bytes, path.string());
-    throw InputError(path.string(), bytes.empty() ? "is empty" : "is neither PNG nor EXR");
+ImageBuffer readImage(const std::filesystem::path& path) {
+    const std::string what = path.string();
+    const std::vector<std::uint8_t> bytes = readWholeFile(path, what);
+    if (isExr(bytes)) return readExr(bytes, what);
+    if (!isKnownPicture(bytes)) throw InputError(what, "is neither EXR nor PNG");
+    return readEncoded(bytes, what);
 }
 
 }  // namespace edgewise

@@ -1,20 +1,20 @@
-// A picture from elsewhere: the reverse of write_image.
+// A finished picture from disk, as write_image or another program left it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "pipeline/image_buffer.h"
 
 namespace edgewise {
 
-struct PictureFile {
-    ImageBuffer image;          ///< the part that the file holds
-    int width = 0, height = 0;  ///< of the whole picture
-};
+/// Pixels that a picture may have; 16384 x 16384.
+inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 28;
 
-/// PNG: sRGB, any depth, straight alpha. EXR: linear, RGB or Y, A and `edge` where it has them; the data
-/// window is the image's box, moved so that the display window starts at 0,0. Other channels are left out.
-/// Throws InputError for what cannot be read, has no colour, or holds a value that is not finite.
-PictureFile readImage(const std::filesystem::path& path);
+/// EXR: channels R, G, B as they are, or Y for all three; the box is the data window; `edge` is empty if the
+/// file has no channel of that name. PNG (JPEG, WebP) of 8 or 16 bits: sRGB-decoded in double; the box begins
+/// at 0,0; no `edge`. A missing alpha is 1. Values are not checked. Throws InputError for a file that cannot
+/// be read or is something else, FailureError past kMaxPicturePixels; both name the file.
+ImageBuffer readImage(const std::filesystem::path& path);
 
 }  // namespace edgewise

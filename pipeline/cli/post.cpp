@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "pipeline/cli/method_options.h"
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/statistics.h"
+#include "pipeline/display_window.h"
+#include "pipeline/error.h"
 #include "pipeline/methods/post_process.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/progress_bar.h"
@@ -30,6 +33,32 @@ struct PostArguments {
     std::optional<std::string> stats;
     bool quiet = false;
 };
+
+struct PictureFile {
+    ImageBuffer image;          ///< what the file holds, the whole picture's corner being 0,0
+    int width = 0, height = 0;  ///< of the whole picture
+};
+
+void requireFinite(const ImageBuffer& image, const std::string& name) {
+    for (int y = image.box.y0; y < image.box.y1; ++y)
+        for (int x = image.box.x0; x < image.box.x1; ++x)
+            for (int c = 0; c < 4; ++c)
+                if (const double value = image.rgba[image.index(x, y)][c]; !std::isfinite(value))
+                    throw InputError(name, fmt::format("pixel {},{} is {}, not a number", x, y, value));
+}
+
+PictureFile readPicture(const std::string& name) {
+    PictureFile picture{readImage(name)};
+    ImageBuffer& image = picture.image;
+    requireFinite(image, name);
+    image.edge.resize(image.rgba.size(), 0.0f);
+    const PixelBox whole = displayWindow(name).value_or(image.box);
+    const PixelBox box = image.box;
+    image.box = {box.x0 - whole.x0, box.y0 - whole.y0, box.x1 - whole.x0, box.y1 - whole.y0};
+    picture.width = whole.width();
+    picture.height = whole.height();
+    return picture;
+}
 
 void writeOutputs(const PostArguments& arguments, const PictureFile& picture, Progress& progress) {
     WriteOptions options;
@@ -62,7 +91,7 @@ void post(const PostArguments& arguments) {
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
 
     MethodResult result;
-    PictureFile picture = readImage(arguments.image);
+    PictureFile picture = readPicture(arguments.image);
     process.apply(picture.image, progress, result.stages);
     writeOutputs(arguments, picture, progress);
     result.setup_seconds = process.setup_seconds;
