@@ -65,8 +65,9 @@ glm::dvec2 lArea(double pull_left, double pull_right, double length, int left, i
 
 /// Share of the pixel at `corner` on the right of the infinite line from a to b. The samples lie on its
 /// border too, so that a line through its corners leaves less than half on either side: that is how the
-/// texture was published.
+/// texture was published. Of a point all is on the right.
 double shareRightOf(glm::dvec2 a, glm::dvec2 b, glm::dvec2 corner) {
+    if (a == b) return 1.0;
     const glm::dvec2 middle = (a + b) / 2.0;
     const double nx = b.y - a.y, ny = a.x - b.x;
     int right = 0;
@@ -114,7 +115,7 @@ SmaaArea cutOff(const glm::dvec2& area) {
 glm::dvec2 orthogonalArea(int crossing_left, int crossing_right, int left, int right) {
     const double length = left + right + 1;
     double from = pull(crossing_left), to = pull(crossing_right);
-    if (from == 0.0 && to == 0.0) return glm::dvec2(0.0);
+    if ((from == 0.0 && to == 0.0) || crossing_left == 2 || crossing_right == 2) return glm::dvec2(0.0);
     if (crossing_left == 4) from = -to;
     if (crossing_right == 4) to = -from;
     if (from == 0.0 || to == 0.0) return lArea(from, to, length, left, right);

@@ -9,7 +9,8 @@
 namespace edgewise {
 
 /// A line of edges, seen from one of its pixels, and the silhouette it stands for. What crosses an end of the
-/// line is 0: nothing; 1: an edge on the far side of the line; 3: one on the pixel's own side; 4: both.
+/// line is 0: nothing; 1: an edge on the far side of the line; 3: one on the pixel's own side; 4: both;
+/// 2 does not occur.
 inline constexpr int kOrthogonalCrossings = 5;
 inline constexpr int kOrthogonalSize = 16;  ///< distances 0, 1, 4, ..., 225 px: their roots are stored
 /// For diagonals 0 to 3: bits for either of the two edges that may go on.
