@@ -156,7 +156,8 @@ TEST(Smaa, MirroredPicturesGiveMirroredResults) {
     EXPECT_GT(test::largestDifference(image, result), 0.1);
     for (const bool columns : {false, true}) {
         const ImageBuffer mirrored = test::filtered(test::flipped(image, columns), "smaa:preset=medium");
-        EXPECT_LE(test::largestDifference(test::flipped(mirrored, columns), result), 1.0 / 255.0);
+        // A weight is cut off to 8 bits, by rounding to either side where it is a whole one; a pixel has two.
+        EXPECT_LE(test::largestDifference(test::flipped(mirrored, columns), result), 2.0 / 255.0);
     }
 }
 
