@@ -14,6 +14,7 @@ void addCompare(CLI::App& program, const std::string& command_line);
 void addCompareWorker(CLI::App& program);  ///< what compare runs, one a method; not for users
 void addWeights(CLI::App& program);
 void addMetrics(CLI::App& program);
+void addPost(CLI::App& program, const std::string& command_line);
 void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);

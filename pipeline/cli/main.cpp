@@ -34,6 +34,7 @@ void parseAndRun(int argc, char** argv) {
     addCompareWorker(program);
     addWeights(program);
     addMetrics(program);
+    addPost(program, command_line);
     addInfo(program);
     addMethods(program);
     addFilters(program);
