@@ -139,6 +139,14 @@ const std::vector<MethodEntry>& methodRegistry() {
          .choices = {},
          .run = runMsaa,
          .run_vulkan = kMsaaVulkan},
+#ifdef EDGEWISE_HAS_EMBREE
+        {.name = "rt",
+         .summary = "N Owen-scrambled Sobol samples a pixel, traced with Embree, filtered like ssaa",
+         .number = MethodEntry::Number::kRequired,
+         .largest = 16384,
+         .choices = {},
+         .run = runRt},
+#endif
 #ifdef EDGEWISE_HAS_ORACLE
         {.name = "exact",
          .summary = "the oracle: exact visibility, weights to 30 digits; for small scenes and crops",
