@@ -30,7 +30,8 @@ void OwnerShares::add(std::span<const Owner> samples, std::size_t pattern) {
     int most = 0;
     groups_.clear();
     for (auto begin = runs_.begin(); begin != runs_.end();) {
-        const auto end = std::find_if(begin, runs_.end(), [&](const Run& r) { return r.owner != begin->owner; });
+        const auto end =
+            std::find_if(begin, runs_.end(), [&](const Run& r) { return r.owner != begin->owner; });
         int count = 0;
         for (auto run = begin; run != end; ++run) count += run->end - run->begin;
         if (count > most) most = count, largest = owners_.size();

@@ -170,8 +170,7 @@ class PatternTile {
                 if (own == owners_.end() || own->owner != samples[i]) continue;
                 seen_.push_back({static_cast<std::uint32_t>(own - owners_.begin()),
                                  std::ldexp(static_cast<double>(weight) * unit_, -kWeightBits),
-                                 glm::dvec2(sx, sy) + at_px[i],
-                                 sourceOf(sx, sy) * f_.patterns_.samples + i});
+                                 glm::dvec2(sx, sy) + at_px[i], sourceOf(sx, sy) * f_.patterns_.samples + i});
             }
         });
         std::ranges::stable_sort(seen_, {}, &Seen::entry);

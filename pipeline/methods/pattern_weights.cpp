@@ -28,7 +28,8 @@ int PatternWeights::marginPx(const Prefilter& filter) {
 PatternWeights::PatternWeights(const Prefilter& filter, const PixelPatterns& patterns)
     : samples_(patterns.samples) {
     if (reachOf(filter) * patterns.samples > kMostSamples)
-        throw FailureError("rt", fmt::format("the filter's support holds more than {:.0f} samples", kMostSamples));
+        throw FailureError("rt",
+                           fmt::format("the filter's support holds more than {:.0f} samples", kMostSamples));
     const int margin = marginPx(filter), side = 2 * margin + 1;
     reach_ = side * side;
     std::vector<double> value(patterns.at_px.size() * reach_);
@@ -43,7 +44,8 @@ PatternWeights::PatternWeights(const Prefilter& filter, const PixelPatterns& pat
     for (const double w : value) largest = std::max(largest, std::fabs(w));
     const double unit = largest > 0.0 ? 0x1p60 / (largest * reach_ * samples_) : 0.0;
     weights_.resize(value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) weights_[i] = std::llround(value[i] * unit * (1 - 0x1p-40));
+    for (std::size_t i = 0; i < value.size(); ++i)
+        weights_[i] = std::llround(value[i] * unit * (1 - 0x1p-40));
     totals_.assign(patterns.count() * reach_, 0);
     for (std::size_t i = 0; i < weights_.size(); ++i)
         totals_[i / (std::size_t(samples_) * reach_) * reach_ + i % reach_] += weights_[i];

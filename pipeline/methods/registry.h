@@ -19,7 +19,7 @@ MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNoneVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
-MethodResult runRt(const MethodSpec& spec, const MethodInput& input);  ///< with Embree
+MethodResult runRt(const MethodSpec& spec, const MethodInput& input);          ///< with Embree
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 

@@ -43,7 +43,8 @@ class RayStages : public SampledStages {
 MethodResult runRt(const MethodSpec& spec, const MethodInput& in) {
     const int samples = *spec.number;
     // The frame asks a pattern for its size alone: the stages have their own for each pixel.
-    SampledFrame frame(in, {samples, 1, {}, 1, false}, SampleWeights::none(PatternWeights::marginPx(in.filter)));
+    SampledFrame frame(in, {samples, 1, {}, 1, false},
+                       SampleWeights::none(PatternWeights::marginPx(in.filter)));
     RayStages stages(frame, samples);
     return frame.render(stages);
 }

@@ -11,9 +11,7 @@ constexpr std::uint32_t kUnplaced = 0xffffffffu;
 
 struct Box {
     glm::dvec2 low, high;
-    bool holds(glm::dvec2 p) const {
-        return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
-    }
+    bool holds(glm::dvec2 p) const { return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y; }
     bool holds(const ScreenTriangle& t) const {
         return std::ranges::all_of(t.p_px, [&](glm::dvec2 p) { return holds(p); });
     }
@@ -53,7 +51,8 @@ Polygon cut(const ScreenTriangle& t, const Box& box) {
 
 class Builder {
   public:
-    Builder(const ScreenScene& screen, const RayView& view, const Box& keep) : screen_(screen), view_(view), keep_(keep) {
+    Builder(const ScreenScene& screen, const RayView& view, const Box& keep)
+        : screen_(screen), view_(view), keep_(keep) {
         std::uint32_t ids = 0;
         for (const ScreenTriangle& t : screen.triangles)
             for (const std::uint32_t id : t.vertex) ids = std::max(ids, id + 1);
@@ -62,8 +61,7 @@ class Builder {
 
     void add(std::uint32_t i) {
         const ScreenTriangle& t = screen_.triangles[i];
-        if (keep_.holds(t))
-            return addFan(i, {shared(t, 0), shared(t, 1), shared(t, 2)});
+        if (keep_.holds(t)) return addFan(i, {shared(t, 0), shared(t, 1), shared(t, 2)});
         std::vector<std::uint32_t> corners;
         for (const glm::dvec2 p : cut(t, keep_)) corners.push_back(place(t, p));
         addFan(i, corners);
