@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -101,6 +102,8 @@ void expectOwnersOfExactSamples(const Scene& scene, const ResolvedCamera& camera
     EXPECT_EQ(unexplained, 0) << what;
     EXPECT_LT(differ, want.owner.size() / 1000) << what;
     EXPECT_GT(met.size(), 15u) << what;
+    const auto deep = [](const Layers& layers) { return layers.size() > 3; };
+    EXPECT_EQ(std::ranges::any_of(met, deep), !screen.see_through.empty()) << what;
 }
 
 TEST(Rt, RaysSeeWhatExactSamplesSee) {
