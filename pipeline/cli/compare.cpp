@@ -100,8 +100,9 @@ class Study {
         options_.runs = static_cast<int>(parseInteger("--runs", arguments.runs, 1, kMostRuns));
         options_.budget_seconds = readBudget(arguments.budget);
         options_.scratch = folder.path();
-        comparison_ = {arguments.picture.scene, arguments.reference,   arguments.command_line,
-                       version(),               compare::thisMachine(), {}};
+        comparison_ = {arguments.picture.scene, arguments.reference,
+                       arguments.command_line,  version(),
+                       compare::thisMachine(),  {}};
         for (const std::string& method : arguments.methods) {
             comparison_.rows.push_back(emptyRow(arguments, method));
             contenders_.push_back({method, flagsOf(method, filterFor(arguments, method))});
@@ -142,8 +143,7 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.picture =
-            compare::pictureOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        reference.picture = compare::pictureOf({arguments_.reference, flags}, folder_.path(), row, progress_);
         size_ = row.size;
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
         writePicture(reference.picture, fileName("reference-" + filter.name), row.device);
@@ -192,7 +192,8 @@ class Study {
             std::string key, text;
             if (!std::getline(file, key) || !std::getline(file, text) || key != keyOf(i)) continue;
             Row row = compare::rowFromText(text);
-            const bool whole = row.status == compare::RowStatus::kOk && std::filesystem::exists(folder_ / row.exr) &&
+            const bool whole = row.status == compare::RowStatus::kOk &&
+                               std::filesystem::exists(folder_ / row.exr) &&
                                std::filesystem::exists(folder_ / row.png);
             if (whole) comparison_.rows[i] = std::move(row);
         }
@@ -230,7 +231,8 @@ void runCompare(const CompareArguments& arguments) {
         const std::string what = failure.what();
         const std::size_t colon = what.find(": ");
         const bool split = colon != std::string::npos;
-        const std::string subject = split ? what.substr(0, colon) : "compare", why = split ? what.substr(colon + 2) : what;
+        const std::string subject = split ? what.substr(0, colon) : "compare",
+                          why = split ? what.substr(colon + 2) : what;
         if (failure.status == 2) throw InputError(subject, why);
         throw FailureError(subject, why);
     }

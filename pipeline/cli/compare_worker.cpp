@@ -59,7 +59,8 @@ class Worker {
     Json run() {
         made_ = {};
         Stopwatch watch;
-        made_ = runMethod(method_, {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_});
+        made_ = runMethod(method_,
+                          {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_});
         const double seconds = watch.lap() - made_.setup_seconds;
         throwIfInterrupted();
         Json reply = Json::parse(statisticsJson(made_));
@@ -79,7 +80,9 @@ class Worker {
 };
 
 /// What the other end cannot have seen is told there, with the status that the program would end with.
-Json failure(const std::exception& error, int status) { return {{"error", error.what()}, {"status", status}}; }
+Json failure(const std::exception& error, int status) {
+    return {{"error", error.what()}, {"status", status}};
+}
 
 void serve(const WorkerArguments& arguments) {
     std::optional<Worker> worker;

@@ -22,10 +22,12 @@ std::vector<std::string> workerFlags(const PictureArguments& picture, const Filt
     flags.add("--animation", picture.animation), flags.add("--camera", picture.camera);
     flags.add("--size", picture.size), flags.add("--crop", picture.crop), flags.add("--shift", picture.shift);
     flags.add("--eye", picture.eye), flags.add("--target", picture.target), flags.add("--fovy", picture.fovy);
-    flags.add("--filter", filter.name), flags.add("--radius", filter.radius), flags.add("--sigma", filter.sigma);
+    flags.add("--filter", filter.name), flags.add("--radius", filter.radius),
+        flags.add("--sigma", filter.sigma);
     flags.add("--device", making.device), flags.add("--precision", making.precision);
     flags.add("--shading", making.shading), flags.add("--background", making.background);
-    flags.add("--threads", making.threads), flags.add("--memory", making.memory), flags.add("--seed", making.seed);
+    flags.add("--threads", making.threads), flags.add("--memory", making.memory),
+        flags.add("--seed", making.seed);
     for (const std::string& stage : making.no_skip) flags.add("--no-skip", stage);
     flags.add("--method", method);
     return flags.words;

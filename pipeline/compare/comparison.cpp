@@ -37,8 +37,8 @@ Machine thisMachine() {
             break;
         }
     machine.cores = std::thread::hardware_concurrency();
-    machine.memory_mib = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 0x1p20;
+    machine.memory_mib =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 0x1p20;
     return machine;
 }
 

@@ -31,14 +31,14 @@ struct Row {
     glm::ivec2 size{0};           ///< px
     std::string device;
     RowStatus status = RowStatus::kOk;
-    std::string why;                                   ///< not ok: in words
-    std::vector<double> seconds, setup_seconds;        ///< by run
+    std::string why;                                    ///< not ok: in words
+    std::vector<double> seconds, setup_seconds;         ///< by run
     std::map<std::string, std::vector<double>> stages;  ///< name -> seconds by run
     double peak_mib = 0.0;
     std::optional<judge::ErrorMetrics> error;  ///< none where no picture was made
     std::vector<PlanEntry> plan;
     std::vector<std::string> notes;
-    std::string exr, png;               ///< file names in the folder; empty where no picture was made
+    std::string exr, png;                  ///< file names in the folder; empty where no picture was made
     std::string signed_map, absolute_map;  ///< likewise
 };
 

@@ -11,7 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json orNull(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+}
 
 Json spreadJson(const std::vector<double>& values) {
     const Spread s = spreadOf(values);
@@ -42,7 +44,9 @@ Json planJson(const std::vector<PlanEntry>& plan) {
     return json;
 }
 
-Json fileJson(const std::string& name) { return name.empty() ? Json() : Json(name); }
+Json fileJson(const std::string& name) {
+    return name.empty() ? Json() : Json(name);
+}
 
 Json rowJson(const Row& row) {
     Json stages = Json::object();
@@ -73,7 +77,9 @@ std::string field(const std::string& text) {
     for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + "\"";
 }
-std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+std::string number(const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "";
+}
 
 std::string latexText(const std::string& text) {
     std::string out;
@@ -99,8 +105,8 @@ std::string latexRow(const Row& row) {
     if (!row.error) return out + " & & & & & &" + fmt::format(" {:.0f} \\\\\n", row.peak_mib);
     const judge::ErrorMetrics& e = *row.error;
     return out + fmt::format(" & {} & {} & {} & {:.5f} & {:.4f} & {:.0f} \\\\\n", latexNumber(e.rmse),
-                             e.edge_rmse ? latexNumber(*e.edge_rmse) : "", e.psnr ? fmt::format("{:.1f}", *e.psnr) : "",
-                             e.ssim, e.flip, row.peak_mib);
+                             e.edge_rmse ? latexNumber(*e.edge_rmse) : "",
+                             e.psnr ? fmt::format("{:.1f}", *e.psnr) : "", e.ssim, e.flip, row.peak_mib);
 }
 
 }  // namespace
@@ -121,18 +127,20 @@ std::string comparisonJson(const Comparison& c) {
 
 std::string comparisonCsv(const Comparison& c) {
     std::string out =
-        "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,setup_seconds,"
+        "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,setup_"
+        "seconds,"
         "rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib\n";
     for (const Row& row : c.rows) {
         const Spread s = spreadOf(row.seconds);
         out += fmt::format("{},{},{},{},{},{},{},{},", field(row.method), field(row.filter), row.radius,
                            number(row.sigma), row.size.x, row.size.y, row.device, nameOf(row.status));
-        out += s.runs == 0 ? ",,,0,," : fmt::format("{},{},{},{},{},", s.median, s.min, s.max, s.runs,
-                                                   spreadOf(row.setup_seconds).median);
+        out += s.runs == 0 ? ",,,0,,"
+                           : fmt::format("{},{},{},{},{},", s.median, s.min, s.max, s.runs,
+                                         spreadOf(row.setup_seconds).median);
         if (row.error)
             out += fmt::format("{},{},{},{},{},{},{},{},", row.error->rmse, row.error->max, row.error->bias,
-                               number(row.error->psnr), number(row.error->edge_rmse), number(row.error->edge_psnr),
-                               row.error->ssim, row.error->flip);
+                               number(row.error->psnr), number(row.error->edge_rmse),
+                               number(row.error->edge_psnr), row.error->ssim, row.error->flip);
         else
             out += ",,,,,,,,";
         out += fmt::format("{}\n", row.peak_mib);

@@ -32,7 +32,9 @@ Color absoluteColor(double s) {
     const int below = std::min(static_cast<int>(at), kStops - 2);
     return glm::mix(kAbsolute[below], kAbsolute[below + 1], at - below);
 }
-Color signedColor(double s) { return glm::mix(kGround, s < 0.0 ? kDarker : kLighter, std::abs(s)); }
+Color signedColor(double s) {
+    return glm::mix(kGround, s < 0.0 ? kDarker : kLighter, std::abs(s));
+}
 
 /// encodeImage() encodes what it is given.
 double decoded(double encoded) {

@@ -21,7 +21,9 @@ struct Releaser {
 template <class T, auto Release>
 using Owned = std::unique_ptr<T, Releaser<Release>>;
 
-[[noreturn]] void fail(const char* why) { throw FailureError("pareto.pdf", why); }
+[[noreturn]] void fail(const char* why) {
+    throw FailureError("pareto.pdf", why);
+}
 
 cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
@@ -31,8 +33,8 @@ cairo_status_t append(void* text, const unsigned char* data, unsigned int length
 }  // namespace
 
 std::string paretoPdf(const std::string& svg) {
-    const Owned<RsvgHandle, g_object_unref> handle(rsvg_handle_new_from_data(
-        reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
+    const Owned<RsvgHandle, g_object_unref> handle(
+        rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
     if (!handle) fail("its SVG cannot be read");
     gdouble width = 0, height = 0;
     if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height)) fail("its SVG has no size");
@@ -45,7 +47,8 @@ std::string paretoPdf(const std::string& svg) {
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00");
         const Owned<cairo_t, cairo_destroy> context(cairo_create(surface.get()));
         const RsvgRectangle page{0, 0, width, height};
-        if (!rsvg_handle_render_document(handle.get(), context.get(), &page, nullptr)) fail("it cannot be drawn");
+        if (!rsvg_handle_render_document(handle.get(), context.get(), &page, nullptr))
+            fail("it cannot be drawn");
         cairo_surface_finish(surface.get());
         if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) fail("it cannot be drawn");
     }

@@ -89,28 +89,35 @@ class Plot {
             out += fmt::format("<path d='M{:.1f} {}v{}' stroke='#ddd'/>", x, kTop, kInnerHeight);
             out += power(x, kTop + kInnerHeight + 18, e, "middle");
         }
-        out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#777'/>", kLeft, kTop,
-                           kInnerWidth, kInnerHeight);
-        out += fmt::format("<text x='{}' y='{}' text-anchor='middle'>seconds, median</text>", kLeft + kInnerWidth / 2,
-                           kHeight - 12);
-        return out + fmt::format("<text transform='translate(16 {}) rotate(-90)' text-anchor='middle'>RMSE, linear "
-                                 "RGB</text>",
-                                 kTop + kInnerHeight / 2);
+        out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#777'/>", kLeft,
+                           kTop, kInnerWidth, kInnerHeight);
+        out += fmt::format("<text x='{}' y='{}' text-anchor='middle'>seconds, median</text>",
+                           kLeft + kInnerWidth / 2, kHeight - 12);
+        return out + fmt::format(
+                         "<text transform='translate(16 {}) rotate(-90)' text-anchor='middle'>RMSE, linear "
+                         "RGB</text>",
+                         kTop + kInnerHeight / 2);
     }
 
-    /// A sampler's error falls like N^-3/4 where an edge or two cross a pixel: through the first sampler's first point.
+    /// A sampler's error falls like N^-3/4 where an edge or two cross a pixel: through the first point of the
+    /// sampler that has most of them.
     std::string slope(const Families& families) const {
-        for (const auto& [name, points] : families) {
-            if (name.find('N') == std::string::npos || !(points[0].error > 0.0)) continue;
-            const double x0 = std::pow(10.0, x_.low), x1 = std::pow(10.0, x_.high);
-            const auto at = [&](double x) { return points[0].error * std::pow(x / points[0].seconds, -0.75); };
-            return fmt::format(
-                "<g clip-path='url(#inside)'><path d='M{:.1f} {:.1f}L{:.1f} {:.1f}' stroke='#999' "
-                "stroke-dasharray='6 4' fill='none'/></g><text x='{:.1f}' y='{:.1f}' fill='#777' "
-                "font-size='11'>dashed: N^-3/4</text>",
-                px(x0), unclamped(at(x0)), px(x1), unclamped(at(x1)), kLeft + kInnerWidth + 10, kTop + kInnerHeight);
-        }
-        return "";
+        const std::vector<Point>* longest = nullptr;
+        for (const auto& [name, points] : families)
+            if (name.find('N') != std::string::npos && points[0].error > 0.0 &&
+                (!longest || points.size() > longest->size()))
+                longest = &points;
+        if (!longest) return "";
+        const double x0 = std::pow(10.0, x_.low), x1 = std::pow(10.0, x_.high);
+        const auto at = [&](double x) {
+            return longest->front().error * std::pow(x / longest->front().seconds, -0.75);
+        };
+        return fmt::format(
+            "<g clip-path='url(#inside)'><path d='M{:.1f} {:.1f}L{:.1f} {:.1f}' stroke='#999' "
+            "stroke-dasharray='6 4' "
+            "fill='none'/></g><text x='{:.1f}' y='{:.1f}' fill='#777' font-size='11'>dashed: N^-3/4</text>",
+            px(x0), unclamped(at(x0)), px(x1), unclamped(at(x1)), kLeft + kInnerWidth + 10,
+            kTop + kInnerHeight);
     }
 
   private:
@@ -118,8 +125,9 @@ class Plot {
         return kTop + kInnerHeight * (1.0 - (std::log10(error) - y_.low) / (y_.high - y_.low));
     }
     static std::string power(double x, double y, int e, const char* anchor) {
-        return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>10<tspan dy='-5' font-size='9'>{}{}</tspan></text>",
-                           x, y, anchor, e < 0 ? "&#8722;" : "", std::abs(e));
+        return fmt::format(
+            "<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>10<tspan dy='-5' font-size='9'>{}{}</tspan></text>",
+            x, y, anchor, e < 0 ? "&#8722;" : "", std::abs(e));
     }
 
     Axis x_, y_;
@@ -128,21 +136,23 @@ class Plot {
 constexpr const char* kColors[]{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a",
                                 "#17909c", "#d1498b", "#7a9a01", "#8b5a2b", "#5f7fd1", "#e07b39"};
 
-std::string seriesSvg(const Plot& plot, const std::string& name, const std::vector<Point>& points, std::size_t index) {
+std::string seriesSvg(const Plot& plot, const std::string& name, const std::vector<Point>& points,
+                      std::size_t index) {
     const char* color = kColors[index % std::size(kColors)];
     std::string path, dots;
     for (const Point& p : points) {
         const double x = plot.px(p.seconds), y = plot.py(p.error);
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
         dots += fmt::format(
-            "<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}' stroke='{}' stroke-width='1.5'><title>{}: {:.4g} s, RMSE "
+            "<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}' stroke='{}' stroke-width='1.5'><title>{}: "
+            "{:.4g} s, RMSE "
             "{:.3g}</title></circle>",
             x, y, p.error > 0.0 ? color : "#fff", color, escaped(p.label), p.seconds, p.error);
     }
     const double y = kTop + 14 + 18.0 * static_cast<double>(index), x = kLeft + kInnerWidth + 12;
     return fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='1.3'/>{}", path, color, dots) +
-           fmt::format("<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>", x, y - 4, color, x + 10,
-                       y, escaped(name));
+           fmt::format("<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>", x, y - 4,
+                       color, x + 10, y, escaped(name));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Error against seconds, log-log: a point a method, sample counts of one method joined, and the slope that samplers can
-// hope for.
+// Error against seconds, log-log: a point a method, sample counts of one method joined, and the slope that
+// samplers can hope for.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace edgewise::compare {
 
-/// One <svg> that stands by itself. Errors of 0 lie on the floor, hollow. Rows without a time or an error are left out.
+/// One <svg> that stands by itself. Errors of 0 lie on the floor, hollow. Rows without a time or an error are
+/// left out.
 std::string paretoSvg(const Comparison& comparison);
 
 /// The same as PDF, of one page. Throws FailureError where it cannot be made.

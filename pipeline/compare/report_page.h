@@ -25,6 +25,7 @@ select,button{font:inherit;padding:2px 8px}
 .view canvas{position:absolute;inset:0;width:100%;height:100%}
 .view b{position:absolute;left:6px;top:4px;background:#fffc;padding:0 6px;border-radius:3px;font-weight:600}
 .scale{display:inline-flex;align-items:center;gap:6px;font-size:12px}
+.scale[hidden]{display:none}
 .scale i{display:inline-block;width:200px;height:12px;border:1px solid #bbb}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 16px;margin:0}dt{font-weight:600}dd{margin:0}
 details{margin:6px 0}summary{cursor:pointer}
@@ -36,7 +37,7 @@ inline constexpr const char* kReportScript = R"js(
 const rows = JSON.parse(document.getElementById("pictures").textContent);
 const views = document.querySelector(".views");
 const kinds = {picture: "picture", signed: "signed error", absolute: "absolute error"};
-const state = {left: 0, right: Math.min(1, rows.length - 1), kind: "picture", zoom: 0, x: 0, y: 0, flipped: false};
+const state = {left: 0, right: Math.min(2, rows.length - 1), kind: "picture", zoom: 0, x: 0, y: 0, flipped: false};
 const loaded = new Map();
 
 function image(row, kind) {

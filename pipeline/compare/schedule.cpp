@@ -81,9 +81,9 @@ class Turn {
         if (!timeout_) return;
         if (row_.seconds.empty() && !first_.is_null()) takeRun(first_, row_);
         row_.status = row_.seconds.empty() ? RowStatus::kTimeout : RowStatus::kOk;
-        row_.why = row_.seconds.empty()
-                       ? "its first run did not end within the budget"
-                       : fmt::format("the budget left it {} runs", row_.seconds.size());
+        row_.why = row_.seconds.empty() ? "its first run did not end within the budget"
+                                        : fmt::format("the budget left it {} run{}", row_.seconds.size(),
+                                                      row_.seconds.size() == 1 ? "" : "s");
     }
 
   private:

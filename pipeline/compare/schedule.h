@@ -18,7 +18,7 @@ struct Contender {
 struct ScheduleOptions {
     int runs = 5;  ///< that are timed, after one that is not
     double budget_seconds = std::numeric_limits<double>::infinity();  ///< a method, all its runs
-    std::filesystem::path scratch;  ///< a folder for pictures on their way
+    std::filesystem::path scratch;                                    ///< a folder for pictures on their way
 };
 
 /// What a picture of row `index` is given to, once, as soon as it is there.

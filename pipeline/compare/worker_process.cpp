@@ -36,9 +36,10 @@ struct WorkerProcess::State {
     /// False where it has not come in time; what has come is kept.
     bool readLine(std::string& line, Clock::time_point until, Progress& progress) {
         bool done = false, ended = false;
-        asio::async_read_until(from, received, '\n', [&](const boost::system::error_code& error, std::size_t) {
-            done = true, ended = static_cast<bool>(error);
-        });
+        asio::async_read_until(from, received, '\n',
+                               [&](const boost::system::error_code& error, std::size_t) {
+                                   done = true, ended = static_cast<bool>(error);
+                               });
         context.restart();
         while (!done) {
             context.run_for(kPatience);

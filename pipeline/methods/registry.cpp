@@ -181,7 +181,9 @@ MethodSpec parseMethod(std::string_view typed) {
     return spec;
 }
 
-bool takesFilter(const MethodSpec& spec) { return !requireMethod(spec.typed, spec.name).own_box; }
+bool takesFilter(const MethodSpec& spec) {
+    return !requireMethod(spec.typed, spec.name).own_box;
+}
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
     const auto own = spec.parameters.find("device");

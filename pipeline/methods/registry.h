@@ -21,7 +21,7 @@ MethodResult runNoneVulkan(const MethodSpec& spec, const MethodInput& input);  /
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runSmaa(const MethodSpec& spec, const MethodInput& input);
-MethodResult runRt(const MethodSpec& spec, const MethodInput& input);          ///< with Embree
+MethodResult runRt(const MethodSpec& spec, const MethodInput& input);  ///< with Embree
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 

@@ -20,20 +20,23 @@ ProgramRun compareIn(const TemporaryFolder& folder, Arguments more, const std::s
     return runProgram(arguments, folder.path());
 }
 
-json resultsOf(const TemporaryFolder& folder) { return json::parse(readFile(folder / "out/results.json")); }
+json resultsOf(const TemporaryFolder& folder) {
+    return json::parse(readFile(folder / "out/results.json"));
+}
 
-const json& rowOf(const json& results, const std::string& method) {
+json rowOf(const json& results, const std::string& method) {
     const auto& rows = results.at("rows");
-    return *std::ranges::find(rows, method, [](const json& row) { return row.at("method").get<std::string>(); });
+    return *std::ranges::find(rows, method,
+                              [](const json& row) { return row.at("method").get<std::string>(); });
 }
 
 TEST(Compare, GivesARowAMethodAndAllFiles) {
     const TemporaryFolder folder;
-    const ProgramRun run =
-        compareIn(folder, {"--method", "nsaa", "--method", "ssaa:2", "--method", "ssaa:4", "--method", "msaa:4"});
+    const ProgramRun run = compareIn(
+        folder, {"--method", "nsaa", "--method", "ssaa:2", "--method", "ssaa:4", "--method", "msaa:4"});
     ASSERT_EQ(run.status, 0) << run.err;
-    for (const char* name : {"results.json", "results.csv", "table.tex", "report.html", "pareto.svg", "pareto.pdf",
-                             "nsaa.exr", "ssaa_2.png", "msaa_4.exr"})
+    for (const char* name : {"results.json", "results.csv", "table.tex", "report.html", "pareto.svg",
+                             "pareto.pdf", "nsaa.exr", "ssaa_2.png", "msaa_4.exr"})
         EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
     const json results = resultsOf(folder);
     EXPECT_EQ(results.at("scene"), "torus-20k");
@@ -50,10 +53,10 @@ TEST(Compare, GivesARowAMethodAndAllFiles) {
         EXPECT_GT(row.at("peak_mib"), 10.0);
         EXPECT_FALSE(row.at("stages").empty());
     }
-    const json& exact = rowOf(results, "nsaa").at("error");
+    const json exact = rowOf(results, "nsaa").at("error");
     EXPECT_EQ(exact.at("rmse"), 0.0) << "the reference itself";
     EXPECT_TRUE(exact.at("psnr").is_null());
-    const json &two = rowOf(results, "ssaa:2").at("error"), &four = rowOf(results, "ssaa:4").at("error");
+    const json two = rowOf(results, "ssaa:2").at("error"), four = rowOf(results, "ssaa:4").at("error");
     EXPECT_GT(two.at("rmse"), four.at("rmse"));
     EXPECT_GT(four.at("rmse"), 0.0);
     EXPECT_GT(two.at("edge_rmse"), two.at("rmse")) << "errors lie on edges";
@@ -62,11 +65,11 @@ TEST(Compare, GivesARowAMethodAndAllFiles) {
 /// A method with a box of its own is judged against the reference with that box.
 TEST(Compare, JudgesARowByItsOwnFilter) {
     const TemporaryFolder folder;
-    const ProgramRun run =
-        compareIn(folder, {"--filter", "gaussian", "--sigma", "0.8", "--method", "msaa:16", "--method", "ssaa:4"});
+    const ProgramRun run = compareIn(
+        folder, {"--filter", "gaussian", "--sigma", "0.8", "--method", "msaa:16", "--method", "ssaa:4"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json results = resultsOf(folder);
-    const json &sampled = rowOf(results, "msaa:16"), &filtered = rowOf(results, "ssaa:4");
+    const json sampled = rowOf(results, "msaa:16"), filtered = rowOf(results, "ssaa:4");
     EXPECT_EQ(sampled.at("filter"), json({{"name", "box"}, {"radius", 0.5}, {"sigma", nullptr}}));
     EXPECT_EQ(filtered.at("filter"), json({{"name", "gaussian"}, {"radius", 2.0}, {"sigma", 0.8}}));
     // against the wide Gaussian its error would be that of the blur
@@ -75,10 +78,10 @@ TEST(Compare, JudgesARowByItsOwnFilter) {
 
 TEST(Compare, ABudgetEndsAMethodAndItsRowSaysSo) {
     const TemporaryFolder folder;
-    const ProgramRun run = compareIn(
-        folder, {"--budget", "0.02", "--method", "ssaa:32", "--method", "none"}, "512x512");
+    const ProgramRun run =
+        compareIn(folder, {"--budget", "0.02", "--method", "ssaa:32", "--method", "none"}, "512x512");
     ASSERT_EQ(run.status, 0) << run.err;
-    const json& row = rowOf(resultsOf(folder), "ssaa:32");
+    const json row = rowOf(resultsOf(folder), "ssaa:32");
     EXPECT_EQ(row.at("status"), "timeout");
     EXPECT_TRUE(row.at("seconds").is_null());
     EXPECT_TRUE(row.at("error").is_null());
@@ -89,7 +92,9 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
     const TemporaryFolder folder;
     ASSERT_EQ(compareIn(folder, {"--method", "none", "--method", "ssaa:2"}).status, 0);
     const json before = resultsOf(folder);
-    ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none", "--method", "ssaa:2", "--method", "ssaa:3"}).status, 0);
+    ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none", "--method", "ssaa:2", "--method", "ssaa:3"})
+                  .status,
+              0);
     const json after = resultsOf(folder);
     ASSERT_EQ(after.at("rows").size(), 3u);
     for (const char* method : {"none", "ssaa:2"}) EXPECT_EQ(rowOf(before, method), rowOf(after, method));
@@ -99,10 +104,11 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
 }
 
 TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {
-    for (const Arguments& wrong :
-         {Arguments{"--method", "nsaa", "--method", "msaa:5"}, {"--method", "nsaa", "--method", "nsaa"},
-          {"--method", "nsaa", "--budget", "0"}, {"--method", "nsaa", "--reference", "truth"},
-          {"--method", "nsaa", "--runs", "none"}}) {
+    for (const Arguments& wrong : {Arguments{"--method", "nsaa", "--method", "msaa:5"},
+                                   {"--method", "nsaa", "--method", "nsaa"},
+                                   {"--method", "nsaa", "--budget", "0"},
+                                   {"--method", "nsaa", "--reference", "truth"},
+                                   {"--method", "nsaa", "--runs", "none"}}) {
         const TemporaryFolder folder;
         const ProgramRun run = compareIn(folder, wrong);
         EXPECT_EQ(run.status, 2) << run.err;
@@ -113,7 +119,8 @@ TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {
 
 TEST(Compare, AMissingSceneIsNamed) {
     const TemporaryFolder folder;
-    const ProgramRun run = runProgram({"compare", "nowhere.glb", "-o", "out", "--method", "nsaa"}, folder.path());
+    const ProgramRun run =
+        runProgram({"compare", "nowhere.glb", "-o", "out", "--method", "nsaa"}, folder.path());
     EXPECT_EQ(run.status, 2);
     EXPECT_NE(run.err.find("nowhere.glb"), std::string::npos) << run.err;
 }
