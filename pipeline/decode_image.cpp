@@ -47,8 +47,18 @@ std::vector<float> linearTable(double largest, ColorEncoding encoding) {
     return table;
 }
 
-PictureSamples readPicture(std::span<const std::uint8_t> bytes, std::uint64_t max_texels,
-                           const std::string& what) {
+}  // namespace
+
+bool isKnownPicture(std::span<const std::uint8_t> bytes) {
+    return !formatName(bytes).empty();
+}
+
+double linearFromSrgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+PictureSamples decodeSamples(std::span<const std::uint8_t> bytes, std::uint64_t max_texels,
+                             const std::string& what) {
     const std::string_view name = formatName(bytes);
     if (name.empty())
         throw InputError(what, bytes.empty() ? "cannot be read" : "is neither PNG, JPEG nor WebP");
@@ -64,19 +74,9 @@ PictureSamples readPicture(std::span<const std::uint8_t> bytes, std::uint64_t ma
     return decodeJpeg(bytes, check_size, what);
 }
 
-}  // namespace
-
-bool isKnownPicture(std::span<const std::uint8_t> bytes) {
-    return !formatName(bytes).empty();
-}
-
-double linearFromSrgb(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 Image decodeImage(std::span<const std::uint8_t> bytes, ColorEncoding encoding, std::uint64_t max_texels,
                   const std::string& what) {
-    const PictureSamples samples = readPicture(bytes, max_texels, what);
+    const PictureSamples samples = decodeSamples(bytes, max_texels, what);
     const std::vector<float> linear = linearTable(samples.largest, encoding);
     const auto channels = static_cast<std::size_t>(samples.channels);
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;

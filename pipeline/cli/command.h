@@ -10,7 +10,11 @@ namespace edgewise::cli {
 
 /// `command_line` is what the user typed, for the metadata of outputs.
 void addRender(CLI::App& program, const std::string& command_line);
+void addCompare(CLI::App& program, const std::string& command_line);
+void addCompareWorker(CLI::App& program);  ///< what compare runs, one a method; not for users
 void addWeights(CLI::App& program);
+void addMetrics(CLI::App& program);
+void addPost(CLI::App& program, const std::string& command_line);
 void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);

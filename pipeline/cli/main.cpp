@@ -30,7 +30,11 @@ void parseAndRun(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer(kFooter);
     addRender(program, command_line);
+    addCompare(program, command_line);
+    addCompareWorker(program);
     addWeights(program);
+    addMetrics(program);
+    addPost(program, command_line);
     addInfo(program);
     addMethods(program);
     addFilters(program);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/parse_values.h"
+#include "pipeline/cli/result_folder.h"
 #include "pipeline/error.h"
 #include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_report.h"
@@ -49,32 +49,6 @@ std::string caseNames() {
         out += (out.empty() ? "" : ", ") + one.name;
     return out;
 }
-
-/// The folder of the results; one that this run made and left empty goes away with it.
-class ResultFolder {
-  public:
-    explicit ResultFolder(const std::string& name) : path_(name) {
-        std::error_code error;
-        made_ = std::filesystem::create_directories(path_, error);
-        if (!std::filesystem::is_directory(path_, error))
-            throw InputError("-o", fmt::format("{} is not a folder and cannot be made one", name));
-        // Said before the work, not after it.
-        if (access(path_.c_str(), W_OK | X_OK) != 0)
-            throw InputError("-o", fmt::format("{} may not be written to", name));
-    }
-    ~ResultFolder() {
-        std::error_code error;
-        if (made_) std::filesystem::remove(path_, error);  // fails where something is in it, as it should
-    }
-    ResultFolder(const ResultFolder&) = delete;
-    ResultFolder& operator=(const ResultFolder&) = delete;
-
-    std::filesystem::path operator/(const char* file) const { return path_ / file; }
-
-  private:
-    std::filesystem::path path_;
-    bool made_ = false;
-};
 
 void stability(const StabilityArguments& arguments) {
     const judge::StabilityOptions options = readOptions(arguments);

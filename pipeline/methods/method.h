@@ -101,6 +101,9 @@ struct MethodSpec {
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
 MethodSpec parseMethod(std::string_view typed);
 
+/// Whether a method takes --filter; the others have a pixel-wide box of their own.
+bool takesFilter(const MethodSpec& spec);
+
 /// Where the method runs: its own device= over options.device. Throws FailureError where Vulkan is asked for
 /// and there is none.
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options);
@@ -119,6 +122,7 @@ struct MethodEntry {
     std::string summary;
     Number number = Number::kAbsent;
     int smallest = 1, largest = 64;  ///< of the number
+    bool own_box = false;            ///< takes no --filter
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
         choices;  ///< parameter -> what it may be; device is added to all

@@ -309,9 +309,6 @@ void PointSampler::binTriangles() {
         [&](std::size_t& cursor, std::size_t i) { binned_[cursor++] = static_cast<std::uint32_t>(i); });
 }
 
-namespace {
-
-/// Stacks come by threads: their names are exchanged for those of the sorted table.
 void sortStacks(SampledOwners& sampled) {
     if (sampled.stacks.empty()) return;
     const LayerStacks* const parts[] = {&sampled.stacks};
@@ -324,8 +321,6 @@ void sortStacks(SampledOwners& sampled) {
                                   sampled.owner[i] = names[0][sampled.owner[i] - kFirstStack];
                       });
 }
-
-}  // namespace
 
 SampledOwners PointSampler::sample(const PixelBox& window, glm::dvec2 shift_px) const {
     SampledOwners out;

@@ -18,6 +18,9 @@ struct SampledOwners {
     LayerStacks stacks;  ///< sorted: the same for any threads
 };
 
+/// Stacks come by threads: their names are exchanged for those of the sorted table.
+void sortStacks(SampledOwners& sampled);
+
 /// Looks up samples of one projected scene. Every decision is exact:
 /// inside by the orientation of grid points, a point on an edge belonging to the triangle whose top or left
 /// edge it is, so that each point of a shared edge has one owner; nearer by the sign of the depth planes'

@@ -118,6 +118,7 @@ const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
         {.name = "none",
          .summary = "one sample at the pixel's centre",
+         .own_box = true,
          .choices = {},
          .run = runNone,
          .run_vulkan = kNoneVulkan},
@@ -135,10 +136,33 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "msaa",
          .summary = "N samples a pixel at Vulkan's standard locations, one shade a triangle and pixel",
          .number = MethodEntry::Number::kRequired,
+         .own_box = true,
          .numbers = {2, 4, 8, 16},
          .choices = {},
          .run = runMsaa,
          .run_vulkan = kMsaaVulkan},
+        {.name = "fxaa",
+         .summary = "FXAA 3.11 on the picture of none",
+         .own_box = true,
+         .choices = {{"preset",
+                      {"10", "11", "12", "13", "14", "15", "20", "21", "22", "23", "24", "25", "26", "27",
+                       "28", "29", "39"}}},
+         .run = runFxaa},
+        {.name = "smaa",
+         .summary = "SMAA 1x on the picture of none",
+         .own_box = true,
+         .choices = {{"preset", {"low", "medium", "high", "ultra"}},
+                     {"edges", {"luma", "color"}},
+                     {"blend", {"linear", "gamma"}}},
+         .run = runSmaa},
+#ifdef EDGEWISE_HAS_EMBREE
+        {.name = "rt",
+         .summary = "N Owen-scrambled Sobol samples a pixel, traced with Embree, filtered like ssaa",
+         .number = MethodEntry::Number::kRequired,
+         .largest = 16384,
+         .choices = {},
+         .run = runRt},
+#endif
 #ifdef EDGEWISE_HAS_ORACLE
         {.name = "exact",
          .summary = "the oracle: exact visibility, weights to 30 digits; for small scenes and crops",
@@ -155,6 +179,10 @@ MethodSpec parseMethod(std::string_view typed) {
     spec.typed = typed;
     for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
     return spec;
+}
+
+bool takesFilter(const MethodSpec& spec) {
+    return !requireMethod(spec.typed, spec.name).own_box;
 }
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {

@@ -88,4 +88,10 @@ SampleWeights SampleWeights::equal(int samples) {
     return weights;
 }
 
+SampleWeights SampleWeights::none(int margin_px) {
+    SampleWeights weights;
+    weights.margin_px = margin_px;
+    return weights;
+}
+
 }  // namespace edgewise

@@ -28,6 +28,9 @@ struct SampleWeights {
     /// One row of so many samples, a power of 2, that weigh alike; no margin.
     static SampleWeights equal(int samples);
 
+    /// No weights: for stages that weigh by themselves.
+    static SampleWeights none(int margin_px);
+
   private:
     SampleWeights() = default;
 };

@@ -1,0 +1,274 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipeline/atomic_file.h"
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/parse_values.h"
+#include "pipeline/cli/result_folder.h"
+#include "pipeline/cli/worker_flags.h"
+#include "pipeline/compare/comparison_report.h"
+#include "pipeline/compare/comparison_tables.h"
+#include "pipeline/compare/error_map.h"
+#include "pipeline/compare/pareto_plot.h"
+#include "pipeline/compare/schedule.h"
+#include "pipeline/compare/worker_process.h"
+#include "pipeline/error.h"
+#include "pipeline/progress_bar.h"
+#include "pipeline/scene_catalog.h"
+#include "pipeline/version.h"
+#include "pipeline/write_image.h"
+
+namespace edgewise::cli {
+namespace {
+
+using compare::Comparison;
+using compare::Contender;
+using compare::Row;
+
+constexpr const char* kUsualReference = "nsaa,device=cpu";
+constexpr int kMostRuns = 10000;
+
+struct CompareArguments {
+    PictureArguments picture;
+    FilterArguments filter;
+    MethodArguments making;
+    std::string folder, reference = kUsualReference, runs = "5", command_line;
+    std::vector<std::string> methods;
+    std::optional<std::string> budget;
+    bool resume = false, quiet = false;
+};
+
+/// Outside of [A-Za-z0-9.-] a character becomes '_'.
+std::string fileName(std::string text) {
+    for (char& c : text)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+    return text;
+}
+
+FilterArguments filterFor(const CompareArguments& arguments, const std::string& method) {
+    return takesFilter(parseMethod(method)) ? arguments.filter : FilterArguments{"box", {}, {}};
+}
+
+double readBudget(const std::optional<std::string>& text) {
+    if (!text) return std::numeric_limits<double>::infinity();
+    const double seconds = parseNumber("--budget", *text);
+    if (!(seconds > 0.0)) throw InputError("--budget", fmt::format("{} is not more than 0", *text));
+    return seconds;
+}
+
+/// Every problem of the command line, before anything runs.
+void checkMethods(const CompareArguments& arguments) {
+    std::set<std::string> files;
+    for (const std::string& method : arguments.methods) {
+        checkAbilities(arguments.making, parseMethod(method));
+        if (!files.insert(fileName(method)).second)
+            throw InputError("--method", fmt::format("'{}' is named twice", method));
+    }
+    checkAbilities(arguments.making, parseMethod(arguments.reference));
+    readFilter(arguments.filter);
+    readMethodOptions(arguments.making);
+    findScene(arguments.picture.scene);
+}
+
+Row emptyRow(const CompareArguments& arguments, const std::string& method) {
+    const MethodSpec spec = parseMethod(method);
+    const Prefilter filter = readFilter(filterFor(arguments, method));
+    Row row;
+    row.method = method;
+    row.parameters = spec.parameters;
+    if (spec.number) row.parameters["number"] = fmt::format("{}", *spec.number);
+    row.filter = filter.name, row.radius = filter.radius;
+    if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
+        row.sigma = filter.sigma;
+    return row;
+}
+
+class Study {
+  public:
+    Study(const CompareArguments& arguments, const ResultFolder& folder, Progress& progress)
+        : arguments_(arguments), folder_(folder), progress_(progress) {
+        options_.runs = static_cast<int>(parseInteger("--runs", arguments.runs, 1, kMostRuns));
+        options_.budget_seconds = readBudget(arguments.budget);
+        options_.scratch = folder.path();
+        comparison_ = {arguments.picture.scene, arguments.reference,
+                       arguments.command_line,  version(),
+                       compare::thisMachine(),  {}};
+        for (const std::string& method : arguments.methods) {
+            comparison_.rows.push_back(emptyRow(arguments, method));
+            contenders_.push_back({method, flagsOf(method, filterFor(arguments, method))});
+        }
+    }
+
+    void run() {
+        if (arguments_.resume) resume();
+        makeReference(arguments_.filter);
+        compare::runByTurns(
+            contenders_, options_, comparison_.rows,
+            [&](std::size_t i, const ImageBuffer& picture) { judge(comparison_.rows[i], picture); },
+            [&](std::size_t i) { remember(i); }, progress_);
+        write();
+        for (const Row& row : comparison_.rows)
+            if (!row.why.empty()) spdlog::warn("'{}': {}", row.method, row.why);
+    }
+
+  private:
+    struct Reference {
+        ImageBuffer picture;
+        std::string png;
+    };
+
+    std::vector<std::string> flagsOf(const std::string& method, const FilterArguments& filter) const {
+        return workerFlags(arguments_.picture, filter, arguments_.making, method);
+    }
+
+    static std::string keyOf(const FilterArguments& filter) {
+        return filter.name + " " + filter.radius.value_or("") + " " + filter.sigma.value_or("");
+    }
+
+    /// Made once a filter.
+    const Reference& makeReference(const FilterArguments& filter) {
+        const auto [found, fresh] = references_.try_emplace(keyOf(filter));
+        if (!fresh) return found->second;
+        auto flags = flagsOf(arguments_.reference, filter);
+        if (references_.size() == 1) flags.push_back("--warn");
+        Row row;
+        Reference& reference = found->second;
+        reference.picture = compare::pictureOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        size_ = row.size;
+        reference.png = fileName(fmt::format("reference-{}.png", filter.name));
+        writePicture(reference.picture, fileName("reference-" + filter.name), row.device);
+        return reference;
+    }
+
+    void writePicture(const ImageBuffer& picture, const std::string& name, const std::string& device) {
+        WriteOptions options;
+        options.width = size_.x, options.height = size_.y;
+        options.metadata = {{"version", version()},
+                            {"command", arguments_.command_line},
+                            {"device", device},
+                            {"seed", arguments_.making.seed.value_or("0")}};
+        writeImage(folder_ / (name + ".exr"), picture, options);
+        writeImage(folder_ / (name + ".png"), picture, options);
+    }
+
+    void judge(Row& row, const ImageBuffer& picture) {
+        const ImageBuffer& truth = makeReference(filterFor(arguments_, row.method)).picture;
+        const std::string name = fileName(row.method);
+        row.error = judge::compareImages(picture, truth);
+        writePicture(picture, name, row.device);
+        row.exr = name + ".exr", row.png = name + ".png";
+        row.signed_map = name + ".signed.png", row.absolute_map = name + ".absolute.png";
+        writeAtomically(folder_ / row.signed_map, compare::signedErrorMap(picture, truth));
+        writeAtomically(folder_ / row.absolute_map, compare::absoluteErrorMap(picture, truth));
+    }
+
+    std::filesystem::path memoryOf(std::size_t i) const {
+        return folder_ / ("." + fileName(contenders_[i].method) + ".row");
+    }
+    /// What a row depends on.
+    std::string keyOf(std::size_t i) const {
+        std::string key = fmt::format("{} {}", version(), arguments_.reference);
+        for (const std::string& word : contenders_[i].arguments) key += " " + word;
+        return oneLine(key);
+    }
+
+    void remember(std::size_t i) const {
+        writeAtomically(memoryOf(i), keyOf(i) + "\n" + compare::rowToText(comparison_.rows[i]));
+    }
+
+    void resume() {
+        for (std::size_t i = 0; i < contenders_.size(); ++i) {
+            std::ifstream file(memoryOf(i));
+            std::string key, text;
+            if (!std::getline(file, key) || !std::getline(file, text) || key != keyOf(i)) continue;
+            Row row = compare::rowFromText(text);
+            const bool whole = row.status == compare::RowStatus::kOk &&
+                               std::filesystem::exists(folder_ / row.exr) &&
+                               std::filesystem::exists(folder_ / row.png);
+            if (whole) comparison_.rows[i] = std::move(row);
+        }
+    }
+
+    void write() {
+        const std::string svg = compare::paretoSvg(comparison_);
+        writeAtomically(folder_ / "results.json", compare::comparisonJson(comparison_));
+        writeAtomically(folder_ / "results.csv", compare::comparisonCsv(comparison_));
+        writeAtomically(folder_ / "table.tex", compare::comparisonLatex(comparison_));
+        writeAtomically(folder_ / "pareto.svg", svg);
+        writeAtomically(folder_ / "pareto.pdf", compare::paretoPdf(svg));
+        writeAtomically(folder_ / "report.html",
+                        compare::comparisonHtml(comparison_, folder_.path(),
+                                                references_.at(keyOf(arguments_.filter)).png));
+    }
+
+    const CompareArguments& arguments_;
+    const ResultFolder& folder_;
+    Progress& progress_;
+    compare::ScheduleOptions options_;
+    Comparison comparison_;
+    std::vector<Contender> contenders_;
+    std::map<std::string, Reference> references_;
+    glm::ivec2 size_{0};
+};
+
+void runCompare(const CompareArguments& arguments) {
+    checkMethods(arguments);
+    const ResultFolder folder(arguments.folder);
+    ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
+    try {
+        Study(arguments, folder, progress).run();
+    } catch (const compare::WorkerFailure& failure) {
+        const std::string what = failure.what();
+        const std::size_t colon = what.find(": ");
+        const bool split = colon != std::string::npos;
+        const std::string subject = split ? what.substr(0, colon) : "compare",
+                          why = split ? what.substr(colon + 2) : what;
+        if (failure.status == 2) throw InputError(subject, why);
+        throw FailureError(subject, why);
+    }
+    throwIfInterrupted();
+    if (!arguments.quiet) fmt::print("{}\n", (folder / "report.html").string());
+}
+
+}  // namespace
+
+void addCompare(CLI::App& program, const std::string& command_line) {
+    CLI::App* command =
+        program.add_subcommand("compare", "error against run time for several methods, with a report");
+    auto arguments = std::make_shared<CompareArguments>();
+    arguments->command_line = command_line;
+    addPictureOptions(*command, arguments->picture);
+    command
+        ->add_option("-o,--output", arguments->folder,
+                     "results.json, results.csv, table.tex, report.html, pareto.svg, pareto.pdf, pictures")
+        ->type_name("DIR")
+        ->required();
+    command->add_option("--method", arguments->methods, "repeated; `edgewise methods` lists them")
+        ->type_name("M")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_option("--reference", arguments->reference, "what errors are against")
+        ->type_name("M")
+        ->capture_default_str();
+    addFilterOptions(*command, arguments->filter);
+    addMethodOptions(*command, arguments->making);
+    command->add_option("--budget", arguments->budget, "a method, all its runs [none]")->type_name("SECONDS");
+    command->add_option("--runs", arguments->runs, "timed runs a method, after one that is not")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_flag("--resume", arguments->resume, "keep the rows that DIR has of the same command");
+    command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
+    command->callback([arguments] { runCompare(*arguments); });
+}
+
+}  // namespace edgewise::cli

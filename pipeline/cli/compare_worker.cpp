@@ -1,0 +1,120 @@
+// The other end of compare/worker_process: makes one method's pictures, as often as it is asked.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/filter_options.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/method_options.h"
+#include "pipeline/cli/picture_options.h"
+#include "pipeline/cli/statistics.h"
+#include "pipeline/compare/raw_image.h"
+#include "pipeline/error.h"
+#include "pipeline/methods/stopwatch.h"
+#include "pipeline/progress_bar.h"
+
+namespace edgewise::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+struct WorkerArguments {
+    PictureArguments picture;
+    FilterArguments filter;
+    MethodArguments making;
+    std::string method;
+    bool warns = false;
+};
+
+class Worker {
+  public:
+    explicit Worker(const WorkerArguments& arguments)
+        : arguments_(arguments),
+          filter_(readFilter(arguments.filter)),
+          method_(parseMethod(arguments.method)),
+          options_(readMethodOptions(arguments.making)),
+          threads_(options_),
+          progress_(false, interruptFlag()) {}
+
+    Json answer(const Json& request) {
+        const std::string what = request.at("do");
+        if (what == "open") return open();
+        if (what == "run") return run();
+        compare::writeRaw(request.at("path").get<std::string>(), made_.image);
+        return Json::object();
+    }
+
+  private:
+    Json open() {
+        picture_ = loadPicture(arguments_.picture, progress_);
+        if (arguments_.warns) warnOfIgnored(picture_->scene);
+        return Json::object();
+    }
+
+    Json run() {
+        made_ = {};
+        Stopwatch watch;
+        made_ = runMethod(method_,
+                          {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_});
+        const double seconds = watch.lap() - made_.setup_seconds;
+        throwIfInterrupted();
+        Json reply = Json::parse(statisticsJson(made_));
+        reply["seconds"] = seconds;
+        reply["size"] = {picture_->film.width, picture_->film.height};
+        return reply;
+    }
+
+    const WorkerArguments& arguments_;
+    Prefilter filter_;
+    MethodSpec method_;
+    RenderOptions options_;
+    ThreadLimit threads_;
+    ProgressBar progress_;
+    std::optional<Picture> picture_;
+    MethodResult made_;
+};
+
+/// What the other end cannot have seen is told there, with the status that the program would end with.
+Json failure(const std::exception& error, int status) {
+    return {{"error", error.what()}, {"status", status}};
+}
+
+void serve(const WorkerArguments& arguments) {
+    std::optional<Worker> worker;
+    for (std::string line; std::getline(std::cin, line);) {
+        Json reply;
+        try {
+            if (!worker) worker.emplace(arguments);
+            reply = worker->answer(Json::parse(line));
+        } catch (const InputError& error) {
+            reply = failure(error, 2);
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            reply = failure(std::runtime_error("memory: not enough for this picture"), 1);
+        } catch (const std::exception& error) {
+            reply = failure(error, 1);
+        }
+        std::cout << reply.dump() << std::endl;
+    }
+}
+
+}  // namespace
+
+void addCompareWorker(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("compare-worker", "one method of compare")->group("");
+    auto arguments = std::make_shared<WorkerArguments>();
+    addPictureOptions(*command, arguments->picture);
+    addFilterOptions(*command, arguments->filter);
+    addMethodOptions(*command, arguments->making);
+    command->add_option("--method", arguments->method)->required();
+    command->add_flag("--warn", arguments->warns);
+    command->callback([arguments] { serve(*arguments); });
+}
+
+}  // namespace edgewise::cli

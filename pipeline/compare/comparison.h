@@ -1,0 +1,59 @@
+// What `edgewise compare` finds: a row a method, and what is common to all rows.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/judge/metrics.h"
+#include "pipeline/methods/method.h"
+
+namespace edgewise::compare {
+
+enum class RowStatus { kOk, kTimeout, kFailed };
+std::string nameOf(RowStatus status);
+
+struct Spread {
+    double median = 0.0, min = 0.0, max = 0.0;
+    std::size_t runs = 0;
+};
+/// Of no values: zeros.
+Spread spreadOf(std::vector<double> values);
+
+struct Row {
+    std::string method;                             ///< as typed
+    std::map<std::string, std::string> parameters;  ///< resolved
+    std::string filter;
+    double radius = 0.0;          ///< px
+    std::optional<double> sigma;  ///< px; of the Gaussians
+    glm::ivec2 size{0};           ///< px
+    std::string device;
+    RowStatus status = RowStatus::kOk;
+    std::string why;                                    ///< not ok: in words
+    std::vector<double> seconds, setup_seconds;         ///< by run
+    std::map<std::string, std::vector<double>> stages;  ///< name -> seconds by run
+    double peak_mib = 0.0;
+    std::optional<judge::ErrorMetrics> error;  ///< none where no picture was made
+    std::vector<PlanEntry> plan;
+    std::vector<std::string> notes;
+    std::string exr, png;                  ///< file names in the folder; empty where no picture was made
+    std::string signed_map, absolute_map;  ///< likewise
+};
+
+/// Of the process's machine: processor, cores, memory.
+struct Machine {
+    std::string processor;
+    unsigned cores = 0;
+    double memory_mib = 0.0;
+};
+Machine thisMachine();
+
+struct Comparison {
+    std::string scene, reference, command, version;
+    Machine machine;
+    std::vector<Row> rows;
+};
+
+}  // namespace edgewise::compare

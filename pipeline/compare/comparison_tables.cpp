@@ -1,0 +1,203 @@
+#include "pipeline/compare/comparison_tables.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/error.h"
+
+namespace edgewise::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json orNull(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json spreadJson(const std::vector<double>& values) {
+    const Spread s = spreadOf(values);
+    if (s.runs == 0) return nullptr;
+    return {{"median", s.median}, {"min", s.min}, {"max", s.max}, {"runs", s.runs}};
+}
+
+Json filterJson(const Row& row) {
+    return {{"name", row.filter}, {"radius", row.radius}, {"sigma", orNull(row.sigma)}};
+}
+
+Json errorJson(const std::optional<judge::ErrorMetrics>& e) {
+    if (!e) return nullptr;
+    return {{"rmse", e->rmse},
+            {"max", e->max},
+            {"bias", e->bias},
+            {"psnr", orNull(e->psnr)},
+            {"edge_rmse", orNull(e->edge_rmse)},
+            {"edge_psnr", orNull(e->edge_psnr)},
+            {"ssim", e->ssim},
+            {"flip", e->flip}};
+}
+
+Json planJson(const std::vector<PlanEntry>& plan) {
+    Json json = Json::array();
+    for (const PlanEntry& entry : plan)
+        json.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
+    return json;
+}
+
+Json fileJson(const std::string& name) {
+    return name.empty() ? Json() : Json(name);
+}
+
+Json rowJson(const Row& row) {
+    Json stages = Json::object();
+    for (const auto& [name, seconds] : row.stages) stages[name] = spreadOf(seconds).median;
+    const Spread setup = spreadOf(row.setup_seconds);
+    return {{"method", row.method},
+            {"parameters", row.parameters},
+            {"filter", filterJson(row)},
+            {"size", {row.size.x, row.size.y}},
+            {"device", row.device},
+            {"status", nameOf(row.status)},
+            {"why", row.why.empty() ? Json() : Json(row.why)},
+            {"seconds", spreadJson(row.seconds)},
+            {"setup_seconds", setup.runs == 0 ? Json() : Json(setup.median)},
+            {"stages", stages},
+            {"error", errorJson(row.error)},
+            {"peak_mib", row.peak_mib},
+            {"exr", fileJson(row.exr)},
+            {"png", fileJson(row.png)},
+            {"plan", planJson(row.plan)},
+            {"notes", row.notes}};
+}
+
+/// As CSV has text: in quotes where it needs them.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+std::string number(const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "";
+}
+
+std::string latexText(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+/// 1.2e-3 as a power of ten.
+std::string latexNumber(double value) {
+    if (value == 0.0) return "0";
+    const std::string text = fmt::format("{:.1e}", value);
+    const std::size_t e = text.find('e');
+    return fmt::format("${}\\cdot 10^{{{}}}$", text.substr(0, e), std::stoi(text.substr(e + 1)));
+}
+
+std::string latexRow(const Row& row) {
+    const Spread seconds = spreadOf(row.seconds);
+    std::string out = latexText(row.method) + " & ";
+    out += seconds.runs == 0 ? nameOf(row.status) : fmt::format("{:.4g}", seconds.median);
+    if (!row.error) return out + " & & & & & &" + fmt::format(" {:.0f} \\\\\n", row.peak_mib);
+    const judge::ErrorMetrics& e = *row.error;
+    return out + fmt::format(" & {} & {} & {} & {:.5f} & {:.4f} & {:.0f} \\\\\n", latexNumber(e.rmse),
+                             e.edge_rmse ? latexNumber(*e.edge_rmse) : "",
+                             e.psnr ? fmt::format("{:.1f}", *e.psnr) : "", e.ssim, e.flip, row.peak_mib);
+}
+
+}  // namespace
+
+std::string comparisonJson(const Comparison& c) {
+    Json json{{"scene", c.scene},
+              {"reference", c.reference},
+              {"command", c.command},
+              {"version", c.version},
+              {"machine",
+               {{"processor", c.machine.processor},
+                {"cores", c.machine.cores},
+                {"memory_mib", c.machine.memory_mib}}},
+              {"rows", Json::array()}};
+    for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
+    return json.dump(2) + "\n";
+}
+
+std::string comparisonCsv(const Comparison& c) {
+    std::string out =
+        "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,setup_"
+        "seconds,"
+        "rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib\n";
+    for (const Row& row : c.rows) {
+        const Spread s = spreadOf(row.seconds);
+        out += fmt::format("{},{},{},{},{},{},{},{},", field(row.method), field(row.filter), row.radius,
+                           number(row.sigma), row.size.x, row.size.y, row.device, nameOf(row.status));
+        out += s.runs == 0 ? ",,,0,,"
+                           : fmt::format("{},{},{},{},{},", s.median, s.min, s.max, s.runs,
+                                         spreadOf(row.setup_seconds).median);
+        if (row.error)
+            out += fmt::format("{},{},{},{},{},{},{},{},", row.error->rmse, row.error->max, row.error->bias,
+                               number(row.error->psnr), number(row.error->edge_rmse),
+                               number(row.error->edge_psnr), row.error->ssim, row.error->flip);
+        else
+            out += ",,,,,,,,";
+        out += fmt::format("{}\n", row.peak_mib);
+    }
+    return out;
+}
+
+std::string comparisonLatex(const Comparison& c) {
+    std::string out =
+        "\\begin{tabular}{lrrrrrrr}\n\\hline\n"
+        "method & seconds & RMSE & edge RMSE & PSNR & SSIM & FLIP & MiB \\\\\n\\hline\n";
+    for (const Row& row : c.rows) out += latexRow(row);
+    return out + "\\hline\n\\end{tabular}\n";
+}
+
+std::string rowToText(const Row& row) {
+    Json json = rowJson(row);
+    json["seconds"] = row.seconds, json["setup_seconds"] = row.setup_seconds, json["stages"] = row.stages;
+    json["signed_map"] = row.signed_map, json["absolute_map"] = row.absolute_map;
+    return json.dump() + "\n";
+}
+
+Row rowFromText(const std::string& text) {
+    try {
+        const Json json = Json::parse(text);
+        const auto optional = [](const Json& value) {
+            return value.is_null() ? std::optional<double>() : std::optional<double>(value.get<double>());
+        };
+        const auto name = [](const Json& value) { return value.is_null() ? "" : value.get<std::string>(); };
+        Row row;
+        row.method = json.at("method"), row.parameters = json.at("parameters");
+        row.filter = json.at("filter").at("name"), row.radius = json.at("filter").at("radius");
+        row.sigma = optional(json.at("filter").at("sigma"));
+        row.size = {json.at("size")[0], json.at("size")[1]};
+        row.device = json.at("device"), row.why = name(json.at("why"));
+        for (const RowStatus status : {RowStatus::kOk, RowStatus::kTimeout, RowStatus::kFailed})
+            if (nameOf(status) == json.at("status")) row.status = status;
+        row.seconds = json.at("seconds").get<std::vector<double>>();
+        row.setup_seconds = json.at("setup_seconds").get<std::vector<double>>();
+        row.stages = json.at("stages").get<std::map<std::string, std::vector<double>>>();
+        row.peak_mib = json.at("peak_mib");
+        if (const Json& e = json.at("error"); !e.is_null()) {
+            judge::ErrorMetrics& error = row.error.emplace();
+            error.rmse = e.at("rmse"), error.max = e.at("max"), error.bias = e.at("bias");
+            error.psnr = optional(e.at("psnr"));
+            error.edge_rmse = optional(e.at("edge_rmse")), error.edge_psnr = optional(e.at("edge_psnr"));
+            error.ssim = e.at("ssim"), error.flip = e.at("flip");
+        }
+        for (const Json& entry : json.at("plan"))
+            row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
+        row.notes = json.at("notes").get<std::vector<std::string>>();
+        row.exr = name(json.at("exr")), row.png = name(json.at("png"));
+        row.signed_map = json.at("signed_map"), row.absolute_map = json.at("absolute_map");
+        return row;
+    } catch (const nlohmann::json::exception& error) {
+        throw FailureError("--resume", error.what());
+    }
+}
+
+}  // namespace edgewise::compare

@@ -1,0 +1,158 @@
+#include "pipeline/compare/schedule.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/compare/raw_image.h"
+#include "pipeline/compare/worker_process.h"
+#include "pipeline/error.h"
+
+namespace edgewise::compare {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kWrongInput = 2;
+
+void takeRun(const Json& reply, Row& row) {
+    row.seconds.push_back(reply.at("seconds"));
+    row.setup_seconds.push_back(reply.at("setup_seconds"));
+    for (const auto& [name, seconds] : reply.at("stages").items()) row.stages[name].push_back(seconds);
+}
+
+void takeFacts(const Json& reply, Row& row) {
+    row.device = reply.at("device");
+    row.size = {reply.at("size")[0], reply.at("size")[1]};
+    row.peak_mib = std::max<double>(row.peak_mib, reply.at("peak_mib"));
+    row.notes = reply.at("notes");
+    row.plan.clear();
+    for (const Json& entry : reply.at("plan"))
+        row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
+}
+
+/// The file goes away with it.
+class ScratchFile {
+  public:
+    ScratchFile(const std::filesystem::path& folder, std::size_t index)
+        : path_(folder / fmt::format(".picture-{}", index)) {}
+    ~ScratchFile() {
+        std::error_code error;
+        std::filesystem::remove(path_, error);
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// One contender and what is left of its budget.
+class Turn {
+  public:
+    Turn(const Contender& contender, std::size_t index, double budget, Row& row)
+        : contender_(contender), index_(index), left_(budget), row_(row) {}
+
+    bool wants(int runs) const { return alive_ && static_cast<int>(row_.seconds.size()) < runs; }
+
+    /// The first run is for warmth: it gives the picture, and counts only where the budget left no other.
+    void warmUp(const ScheduleOptions& options, const TakePicture& take, Progress& progress) {
+        worker_.emplace(contender_.arguments);
+        guarded([&] {
+            worker_->ask({{"do", "open"}}, std::chrono::hours(24), progress);
+            first_ = ask({{"do", "run"}}, progress);
+            takeFacts(first_, row_);
+            const ScratchFile file(options.scratch, index_);
+            worker_->ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24), progress);
+            take(index_, readRaw(file.path()));
+        });
+    }
+
+    void run(Progress& progress) {
+        guarded([&] {
+            const Json reply = ask({{"do", "run"}}, progress);
+            takeRun(reply, row_);
+            takeFacts(reply, row_);
+        });
+    }
+
+    /// What an early end leaves.
+    void conclude() {
+        worker_.reset();
+        if (!timeout_) return;
+        if (row_.seconds.empty() && !first_.is_null()) takeRun(first_, row_);
+        row_.status = row_.seconds.empty() ? RowStatus::kTimeout : RowStatus::kOk;
+        row_.why = row_.seconds.empty() ? "its first run did not end within the budget"
+                                        : fmt::format("the budget left it {} run{}", row_.seconds.size(),
+                                                      row_.seconds.size() == 1 ? "" : "s");
+    }
+
+  private:
+    Json ask(const Json& request, Progress& progress) {
+        const auto start = std::chrono::steady_clock::now();
+        const Json reply = worker_->ask(request, std::chrono::duration<double>(left_), progress);
+        left_ -= std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (left_ <= 0.0) alive_ = false, timeout_ = true;
+        return reply;
+    }
+
+    template <class Work>
+    void guarded(Work&& work) {
+        try {
+            work();
+        } catch (const WorkerTimeout&) {
+            alive_ = false, timeout_ = true;
+        } catch (const WorkerFailure& failure) {
+            if (failure.status == kWrongInput) throw;
+            alive_ = false;
+            row_.status = RowStatus::kFailed, row_.why = failure.what();
+        }
+    }
+
+    const Contender& contender_;
+    std::size_t index_;
+    double left_;
+    Row& row_;
+    std::optional<WorkerProcess> worker_;
+    Json first_;
+    bool alive_ = true, timeout_ = false;
+};
+
+}  // namespace
+
+void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions& options,
+                std::vector<Row>& rows, const TakePicture& take, const RowChanged& changed,
+                Progress& progress) {
+    std::vector<Turn> turns;
+    turns.reserve(contenders.size());
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        turns.emplace_back(contenders[i], i, options.budget_seconds, rows[i]);
+        if (turns[i].wants(options.runs)) total += 1 + static_cast<std::size_t>(options.runs);
+    }
+    progress.stage("compare", total);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        if (!turns[i].wants(options.runs)) continue;
+        open.push_back(i);
+        turns[i].warmUp(options, take, progress);
+        progress.advance(1);
+    }
+    for (int round = 0; round < options.runs; ++round)
+        for (const std::size_t i : open) {
+            if (turns[i].wants(options.runs)) turns[i].run(progress), changed(i);
+            progress.advance(1);
+        }
+    for (const std::size_t i : open) turns[i].conclude(), changed(i);
+}
+
+ImageBuffer pictureOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
+                      Progress& progress) {
+    WorkerProcess worker(contender.arguments);
+    worker.ask({{"do", "open"}}, std::chrono::hours(24), progress);
+    takeFacts(worker.ask({{"do", "run"}}, std::chrono::hours(24 * 365), progress), row);
+    const ScratchFile file(scratch, 0);
+    worker.ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24), progress);
+    return readRaw(file.path());
+}
+
+}  // namespace edgewise::compare

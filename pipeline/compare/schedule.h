@@ -1,0 +1,40 @@
+// Runs methods by turns, each in a process of its own, so that what disturbs the machine disturbs all alike.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "pipeline/compare/comparison.h"
+#include "pipeline/image_buffer.h"
+
+namespace edgewise::compare {
+
+struct Contender {
+    std::string method;                  ///< as typed
+    std::vector<std::string> arguments;  ///< of its worker
+};
+
+struct ScheduleOptions {
+    int runs = 5;  ///< that are timed, after one that is not
+    double budget_seconds = std::numeric_limits<double>::infinity();  ///< a method, all its runs
+    std::filesystem::path scratch;                                    ///< a folder for pictures on their way
+};
+
+/// What a picture of row `index` is given to, once, as soon as it is there.
+using TakePicture = std::function<void(std::size_t index, const ImageBuffer& picture)>;
+/// After every run: rows so far, for whoever wants to resume.
+using RowChanged = std::function<void(std::size_t index)>;
+
+/// `rows` come with what is known of each contender, and leave with times, device, plan and status; a row
+/// that has its runs already is left as it is. A method that fails, or spends its budget before its first
+/// run ends, has a row that says so. Throws Interrupted, and InputError where a worker was given wrong input.
+void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions& options,
+                std::vector<Row>& rows, const TakePicture& take, const RowChanged& changed,
+                Progress& progress);
+
+/// One picture, not timed: for references.
+ImageBuffer pictureOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
+                      Progress& progress);
+
+}  // namespace edgewise::compare

@@ -1,0 +1,94 @@
+#include "pipeline/compare/worker_process.h"
+
+#include <fmt/format.h>
+
+#include <boost/asio.hpp>
+#include <boost/process.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "pipeline/error.h"
+
+namespace edgewise::compare {
+namespace {
+
+namespace bp = boost::process;
+namespace asio = boost::asio;
+using Clock = std::chrono::steady_clock;
+
+/// Between looks at whether the user has had enough.
+constexpr std::chrono::milliseconds kPatience{50};
+
+}  // namespace
+
+struct WorkerProcess::State {
+    explicit State(const std::vector<std::string>& arguments)
+        : from(context),
+          child(std::filesystem::read_symlink("/proc/self/exe").string(), bp::args(arguments),
+                bp::std_in<to, bp::std_out> from) {}
+
+    asio::io_context context;
+    bp::opstream to;
+    bp::async_pipe from;
+    bp::child child;
+    asio::streambuf received;
+
+    /// False where it has not come in time; what has come is kept.
+    bool readLine(std::string& line, Clock::time_point until, Progress& progress) {
+        bool done = false, ended = false;
+        asio::async_read_until(from, received, '\n',
+                               [&](const boost::system::error_code& error, std::size_t) {
+                                   done = true, ended = static_cast<bool>(error);
+                               });
+        context.restart();
+        while (!done) {
+            context.run_for(kPatience);
+            if (context.stopped()) context.restart();
+            const bool cancelled = !done && progress.cancelled(), late = !done && Clock::now() > until;
+            if (cancelled || late) stop();
+            if (cancelled) throw Interrupted();
+            if (late) return false;
+        }
+        if (ended) throw WorkerFailure(howItEnded(), child.exit_code());
+        std::istream stream(&received);
+        std::getline(stream, line);
+        return true;
+    }
+
+    void stop() {
+        std::error_code error;
+        child.terminate(error);
+        from.close();
+        context.run();  // the read that was under way
+    }
+
+    std::string howItEnded() {
+        child.wait();
+        return fmt::format("its process ended with status {}", child.exit_code());
+    }
+};
+
+WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments)
+    : state_(std::make_unique<State>(arguments)) {}
+WorkerProcess::WorkerProcess(WorkerProcess&&) noexcept = default;
+
+WorkerProcess::~WorkerProcess() {
+    if (!state_) return;
+    std::error_code error;
+    if (state_->child.running(error)) state_->child.terminate(error);
+    state_->child.wait(error);
+}
+
+nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::duration<double> at_most,
+                                  Progress& progress) {
+    const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::min(at_most, std::chrono::duration<double>(1e7)));
+    state_->to << request.dump() << std::endl;
+    std::string line;
+    if (!state_->readLine(line, until, progress)) throw WorkerTimeout();
+    nlohmann::json reply = nlohmann::json::parse(line);
+    if (reply.contains("error")) throw WorkerFailure(reply.at("error"), reply.at("status"));
+    return reply;
+}
+
+}  // namespace edgewise::compare

@@ -1,0 +1,129 @@
+// `edgewise compare` as scripts rely on it: the files, the rows' fields, budgets, resuming, errors.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "pipeline/version.h"
+#include "tests/cli/run_program.h"
+
+namespace edgewise::test {
+namespace {
+
+using nlohmann::json;
+
+ProgramRun compareIn(const TemporaryFolder& folder, Arguments more, const std::string& size = "48x32") {
+    Arguments arguments{"compare", "torus-20k", "-o", "out", "--size", size, "--device", "cpu"};
+    if (std::ranges::find(more, "--runs") == more.end()) arguments.insert(arguments.end(), {"--runs", "2"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments, folder.path());
+}
+
+json resultsOf(const TemporaryFolder& folder) {
+    return json::parse(readFile(folder / "out/results.json"));
+}
+
+json rowOf(const json& results, const std::string& method) {
+    const auto& rows = results.at("rows");
+    return *std::ranges::find(rows, method,
+                              [](const json& row) { return row.at("method").get<std::string>(); });
+}
+
+TEST(Compare, GivesARowAMethodAndAllFiles) {
+    const TemporaryFolder folder;
+    const ProgramRun run = compareIn(
+        folder, {"--method", "nsaa", "--method", "ssaa:2", "--method", "ssaa:4", "--method", "msaa:4"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    for (const char* name : {"results.json", "results.csv", "table.tex", "report.html", "pareto.svg",
+                             "pareto.pdf", "nsaa.exr", "ssaa_2.png", "msaa_4.exr"})
+        EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
+    const json results = resultsOf(folder);
+    EXPECT_EQ(results.at("scene"), "torus-20k");
+    EXPECT_EQ(results.at("reference"), "nsaa,device=cpu");
+    EXPECT_EQ(results.at("version"), version());
+    ASSERT_EQ(results.at("rows").size(), 4u);
+    for (const json& row : results.at("rows")) {
+        EXPECT_EQ(row.at("status"), "ok");
+        EXPECT_EQ(row.at("device"), "cpu");
+        EXPECT_EQ(row.at("size"), json({48, 32}));
+        EXPECT_EQ(row.at("seconds").at("runs"), 2);
+        EXPECT_LE(row.at("seconds").at("min"), row.at("seconds").at("median"));
+        EXPECT_LE(row.at("seconds").at("median"), row.at("seconds").at("max"));
+        EXPECT_GT(row.at("peak_mib"), 10.0);
+        EXPECT_FALSE(row.at("stages").empty());
+    }
+    const json exact = rowOf(results, "nsaa").at("error");
+    EXPECT_EQ(exact.at("rmse"), 0.0) << "the reference itself";
+    EXPECT_TRUE(exact.at("psnr").is_null());
+    const json two = rowOf(results, "ssaa:2").at("error"), four = rowOf(results, "ssaa:4").at("error");
+    EXPECT_GT(two.at("rmse"), four.at("rmse"));
+    EXPECT_GT(four.at("rmse"), 0.0);
+    EXPECT_GT(two.at("edge_rmse"), two.at("rmse")) << "errors lie on edges";
+}
+
+/// A method with a box of its own is judged against the reference with that box.
+TEST(Compare, JudgesARowByItsOwnFilter) {
+    const TemporaryFolder folder;
+    const ProgramRun run = compareIn(
+        folder, {"--filter", "gaussian", "--sigma", "0.8", "--method", "msaa:16", "--method", "ssaa:4"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = resultsOf(folder);
+    const json sampled = rowOf(results, "msaa:16"), filtered = rowOf(results, "ssaa:4");
+    EXPECT_EQ(sampled.at("filter"), json({{"name", "box"}, {"radius", 0.5}, {"sigma", nullptr}}));
+    EXPECT_EQ(filtered.at("filter"), json({{"name", "gaussian"}, {"radius", 2.0}, {"sigma", 0.8}}));
+    // against the wide Gaussian its error would be that of the blur
+    EXPECT_LT(sampled.at("error").at("rmse"), 0.03);
+}
+
+TEST(Compare, ABudgetEndsAMethodAndItsRowSaysSo) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        compareIn(folder, {"--budget", "0.02", "--method", "ssaa:32", "--method", "none"}, "512x512");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json row = rowOf(resultsOf(folder), "ssaa:32");
+    EXPECT_EQ(row.at("status"), "timeout");
+    EXPECT_TRUE(row.at("seconds").is_null());
+    EXPECT_TRUE(row.at("error").is_null());
+    EXPECT_NE(run.err.find("budget"), std::string::npos) << run.err;
+}
+
+TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(compareIn(folder, {"--method", "none", "--method", "ssaa:2"}).status, 0);
+    const json before = resultsOf(folder);
+    ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none", "--method", "ssaa:2", "--method", "ssaa:3"})
+                  .status,
+              0);
+    const json after = resultsOf(folder);
+    ASSERT_EQ(after.at("rows").size(), 3u);
+    for (const char* method : {"none", "ssaa:2"}) EXPECT_EQ(rowOf(before, method), rowOf(after, method));
+    // another size is another command
+    ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none"}, "40x32").status, 0);
+    EXPECT_EQ(rowOf(resultsOf(folder), "none").at("size"), json({40, 32}));
+}
+
+TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {
+    for (const Arguments& wrong : {Arguments{"--method", "nsaa", "--method", "msaa:5"},
+                                   {"--method", "nsaa", "--method", "nsaa"},
+                                   {"--method", "nsaa", "--budget", "0"},
+                                   {"--method", "nsaa", "--reference", "truth"},
+                                   {"--method", "nsaa", "--runs", "none"}}) {
+        const TemporaryFolder folder;
+        const ProgramRun run = compareIn(folder, wrong);
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_EQ(lines(run.err).size(), 1u) << run.err;
+        EXPECT_TRUE(folder.names().empty()) << "something was left behind";
+    }
+}
+
+TEST(Compare, AMissingSceneIsNamed) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        runProgram({"compare", "nowhere.glb", "-o", "out", "--method", "nsaa"}, folder.path());
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("nowhere.glb"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace edgewise::test
