@@ -57,6 +57,7 @@ bool mayBe(const MethodEntry& entry, int number) {
 
 std::string numbersOf(const MethodEntry& entry) {
     if (entry.numbers.empty()) return fmt::format("a number from {} to {}", entry.smallest, entry.largest);
+    if (entry.numbers.size() == 1) return fmt::format("{}, its only number", entry.numbers[0]);
     return fmt::format("one of {}", fmt::join(entry.numbers, ", "));
 }
 
