@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/compare/error_map.h"
+#include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/html_text.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
@@ -128,6 +129,14 @@ constexpr const char* kDefinitions =
     "primitive)</dd><dt>MiB</dt><dd>the peak "
     "of each method's own process</dd></dl>";
 
+std::string slopesText(const Comparison& c) {
+    std::string out;
+    for (const ErrorSlope& s : errorSlopes(c.rows))
+        out += fmt::format("<p>{}: RMSE falls like samples<sup>{:.3f}</sup>, {:.0f} to {:.0f} a pixel</p>",
+                           escaped(s.family), s.slope, s.least, s.most);
+    return out;
+}
+
 std::string viewer() {
     return fmt::format(
         "<div class='bar'><label>left <select id='left'></select></label><label>right <select "
@@ -163,8 +172,9 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
                "<code>{3}</code><br><code>{4}</code><br>{5}, {6} threads, {7:.0f} MiB</p>\n",
                escaped(c.scene), kReportStyle, escaped(c.version), escaped(c.reference), escaped(c.command),
                escaped(c.machine.processor), c.machine.cores, c.machine.memory_mib) +
-           "<div class='card'>" + paretoSvg(c) + "</div>\n<h2>Methods</h2><div class='card scroll'>" +
-           table(c) + "</div>\n<h2>Pictures</h2><div class='card'>" + viewer() +
+           "<div class='card'>" + paretoSvg(c) + slopesText(c) +
+           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) +
+           "</div>\n<h2>Pictures</h2><div class='card'>" + viewer() +
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +
            "</div></main>\n<script type='application/json' id='pictures'>" +

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/compare/error_slope.h"
 #include "pipeline/error.h"
 
 namespace edgewise::compare {
@@ -122,6 +123,10 @@ std::string comparisonJson(const Comparison& c) {
                 {"memory_mib", c.machine.memory_mib}}},
               {"rows", Json::array()}};
     for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
+    json["slopes"] = Json::array();
+    for (const ErrorSlope& s : errorSlopes(c.rows))
+        json["slopes"].push_back(
+            {{"family", s.family}, {"slope", s.slope}, {"samples", {s.least, s.most}}, {"rows", s.rows}});
     return json.dump(2) + "\n";
 }
 

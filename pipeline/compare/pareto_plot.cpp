@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/html_text.h"
 
 namespace edgewise::compare {
@@ -18,20 +19,6 @@ struct Point {
     double seconds, error;
     std::string label;
 };
-
-/// What of a method's name is not its number: ssaa:2 and ssaa:4 are one line.
-std::string familyOf(const Row& row) {
-    std::string name;
-    for (std::size_t i = 0; i < row.method.size(); ++i) {
-        const bool digit = row.method[i] >= '0' && row.method[i] <= '9';
-        const bool of_number = digit && i > 0 && (row.method[i - 1] == ':' || (name.ends_with('N')));
-        if (!of_number)
-            name += row.method[i];
-        else if (!name.ends_with('N'))
-            name += 'N';
-    }
-    return name;
-}
 
 using Families = std::map<std::string, std::vector<Point>>;
 

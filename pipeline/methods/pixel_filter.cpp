@@ -17,6 +17,15 @@ double toDouble(FixedWeight weight) {
     return std::ldexp(static_cast<double>(weight), -kWeightBits);
 }
 
+constexpr FixedWeight kOne = FixedWeight(1) << kWeightBits;
+
+/// Of the pixel's 1, what samples take whose weights sum to `sum`, where all that are known weigh `known`.
+/// Taken at running sums, differences add up to exactly 1. Error: two roundings.
+FixedWeight shareOf(FixedWeight sum, FixedWeight known) {
+    if (known == kOne) return sum;
+    return std::llround(std::ldexp(static_cast<double>(sum) / static_cast<double>(known), kWeightBits));
+}
+
 void findRuns(SampleBand& band) {
     band.run_end.resize(band.owner.size());
     tbb::parallel_for(std::size_t(0), band.owner.size() / band.stride, [&](std::size_t row) {
@@ -55,7 +64,8 @@ void PixelFilter::shadeSamples(SampleBand& band) const {
     band.shade.resize(band.owner.size());
     tbb::parallel_for(std::size_t(0), band.owner.size() / band.stride, [&](std::size_t row) {
         for (std::size_t i = row * band.stride; i < (row + 1) * band.stride; ++i)
-            band.shade[i] = shadeAt(band, band.owner[i], position(band, row, i - row * band.stride));
+            if (band.owner[i] != kUnknown)
+                band.shade[i] = shadeAt(band, band.owner[i], position(band, row, i - row * band.stride));
     });
 }
 
@@ -77,7 +87,7 @@ std::vector<OwnerWeight> PixelFilter::ownersOf(const SampleBand& band, int x, in
     return ownerWeights(runs);
 }
 
-/// In owner order; an owner's runs from top to bottom, left to right.
+/// Of known owners, in their order; an owner's runs from top to bottom, left to right.
 void PixelFilter::collectRuns(const SampleBand& band, int x, int y, std::vector<OwnerRun>& runs) const {
     runs.clear();
     bool mixed = false;
@@ -88,8 +98,10 @@ void PixelFilter::collectRuns(const SampleBand& band, int x, int y, std::vector<
         for (int begin = 0; begin < w.size();) {
             const int run_end = static_cast<int>(band.run_end[start + begin] - column);
             const int end = std::min(run_end, w.size());
-            runs.push_back({band.owner[start + begin], row, begin, end});
-            mixed |= runs.back().owner != runs.front().owner;
+            if (band.owner[start + begin] != kUnknown) {
+                runs.push_back({band.owner[start + begin], row, begin, end});
+                mixed |= runs.back().owner != runs.front().owner;
+            }
             begin = end;
         }
     }
@@ -105,10 +117,14 @@ FixedWeight PixelFilter::weightOf(Runs runs) const {
 }
 
 std::vector<OwnerWeight> PixelFilter::ownerWeights(const std::vector<OwnerRun>& runs) const {
+    const FixedWeight known = weightOf(runs);
     std::vector<OwnerWeight> owners;
+    FixedWeight before = 0;
     for (const OwnerRun& run : runs) {
         if (owners.empty() || owners.back().owner != run.owner) owners.push_back({run.owner, 0});
-        owners.back().weight += weights_.rows[run.row].of(run.begin, run.end);
+        const FixedWeight up_to = before + weights_.rows[run.row].of(run.begin, run.end);
+        owners.back().weight += shareOf(up_to, known) - shareOf(before, known);
+        before = up_to;
     }
     return owners;
 }
@@ -122,16 +138,20 @@ std::size_t PixelFilter::firstSample(const SampleBand& band, int x, int y, int r
 std::uint64_t PixelFilter::blend(const SampleBand& band, int x, int y, const std::vector<OwnerRun>& runs,
                                  ImageBuffer& image) const {
     f64::PixelSum sum{glm::dvec3(0.0), 0, 0.0, glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+    const FixedWeight known = weightOf(runs);
+    FixedWeight before = 0;
     std::uint64_t owners = 0;
     for (std::size_t begin = 0; begin < runs.size(); ++owners) {
         std::size_t end = begin + 1;
         while (end < runs.size() && runs[end].owner == runs[begin].owner) ++end;
         const Runs own = Runs(runs).subspan(begin, end - begin);
         if (in_.options.shading.mode == ShadingMode::kHit) {
-            sum = withHits(sum, band, x, y, own);
+            sum = withHits(sum, band, x, y, own, 1.0 / toDouble(known));
         } else {
             const Shade seen = shade(band, x, y, own);
-            sum = f64::withOwner(sum, weightOf(own), seen.color, seen.alpha);
+            const FixedWeight up_to = before + weightOf(own);
+            sum = f64::withOwner(sum, shareOf(up_to, known) - shareOf(before, known), seen.color, seen.alpha);
+            before = up_to;
         }
         begin = end;
     }
@@ -212,16 +232,17 @@ std::vector<glm::dvec2> PixelFilter::spreadOut(const std::vector<glm::dvec2>& se
     return chosen;
 }
 
-/// The owner's samples as they were shaded; its colour, for the pixel's contrast, is their mean.
-f64::PixelSum PixelFilter::withHits(const f64::PixelSum& sum, const SampleBand& band, int x, int y,
-                                    Runs runs) const {
+/// The owner's samples as they were shaded, each weighing `share` of its weight; the owner's colour, for the
+/// pixel's contrast, is their mean.
+f64::PixelSum PixelFilter::withHits(const f64::PixelSum& sum, const SampleBand& band, int x, int y, Runs runs,
+                                    double share) const {
     f64::PixelSum out = sum;
     glm::dvec3 colour(0.0), weighted(0.0);
     double covered = 0.0, count = 0.0;
     for (const OwnerRun& run : runs) {
         const std::size_t start = firstSample(band, x, y, run.row);
         for (int i = run.begin; i < run.end; ++i, ++count) {
-            const double weight = toDouble(weights_.rows[run.row].of(i, i + 1));
+            const double weight = share * toDouble(weights_.rows[run.row].of(i, i + 1));
             const Shade& seen = band.shade[start + i];
             colour += seen.color, weighted += seen.color * weight, covered += seen.alpha * weight;
         }

@@ -15,12 +15,16 @@
 
 namespace edgewise {
 
+/// What is seen at a sample that counts for nothing: the pixel's other samples share its weight in proportion
+/// to their own. Each pixel must have a sample of a positive weight that is known.
+inline constexpr Owner kUnknown = kBackground - 1;
+
 /// The samples of a window of pixels, in rows of `stride`: a row of pixels has pattern.rows of them, a pixel
 /// pattern.columns in each.
 struct SampleBand {
     PixelBox window;
     std::size_t stride = 0;
-    std::vector<Owner> owner;
+    std::vector<Owner> owner;  ///< or kUnknown
     LayerStacks stacks;
     std::vector<std::uint32_t>
         run_end;               ///< the first sample of the row, at or after this one, with another owner
@@ -63,7 +67,8 @@ class PixelFilter {
     glm::dvec2 centroidOf(const std::vector<glm::dvec2>& seen, Runs runs, glm::dvec2 corner) const;
     Shade meanOver(Owner owner, const std::vector<glm::dvec2>& seen) const;
     std::vector<glm::dvec2> spreadOut(const std::vector<glm::dvec2>& seen, std::size_t count) const;
-    f64::PixelSum withHits(const f64::PixelSum& sum, const SampleBand& band, int x, int y, Runs runs) const;
+    f64::PixelSum withHits(const f64::PixelSum& sum, const SampleBand& band, int x, int y, Runs runs,
+                           double share) const;
     std::vector<glm::dvec2> seenAt(const SampleBand& band, int x, int y, Runs runs) const;
     glm::dvec2 position(const SampleBand& band, std::size_t row, std::size_t column) const;
     Shade shadeAt(const SampleBand& band, const Owner& owner, glm::dvec2 p_px) const;

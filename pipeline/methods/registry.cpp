@@ -57,6 +57,7 @@ bool mayBe(const MethodEntry& entry, int number) {
 
 std::string numbersOf(const MethodEntry& entry) {
     if (entry.numbers.empty()) return fmt::format("a number from {} to {}", entry.smallest, entry.largest);
+    if (entry.numbers.size() == 1) return fmt::format("{}, its only number", entry.numbers[0]);
     return fmt::format("one of {}", fmt::join(entry.numbers, ", "));
 }
 
@@ -141,6 +142,13 @@ const std::vector<MethodEntry>& methodRegistry() {
          .choices = {},
          .run = runMsaa,
          .run_vulkan = kMsaaVulkan},
+        {.name = "csaa",
+         .summary = "msaa:8 weighed by 24 more samples that see only what the 8 see",
+         .number = MethodEntry::Number::kRequired,
+         .own_box = true,
+         .numbers = {32},
+         .choices = {},
+         .run = runCsaa},
         {.name = "fxaa",
          .summary = "FXAA 3.11 on the picture of none",
          .own_box = true,

@@ -12,6 +12,7 @@ const std::vector<MethodEntry>& methodRegistry();
 MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input,
                          bool asked);
 
+MethodResult runCsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
 MethodResult runFxaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runMsaa(const MethodSpec& spec, const MethodInput& input);

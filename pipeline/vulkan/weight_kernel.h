@@ -16,7 +16,7 @@ struct WeightKernel {
     WeightKernel(const Prefilter& filter, Precision precision);
 
     EdgeKernel kernel;
-    /// kernel_numbers of shaders/shared/edge_kernel.glsl, as doubles; floats are made of them for kFp32.
+    /// The numbers of shaders/shared/edge_kernel.glsl, as doubles; floats are made of them for kFp32.
     std::vector<double> numbers;
     Specialization constants;  ///< kForm ...
 };

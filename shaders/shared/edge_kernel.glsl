@@ -1,4 +1,4 @@
-// GLSL only: what analytic/lane_kernel.h is in C++. A kernel's numbers lie in one buffer, `kernel_numbers`, which its parts
+// GLSL only: what analytic/lane_kernel.h is in C++. A kernel's numbers lie in one buffer, kernelNumber(i), which its parts
 // are places in: WeightKernel in pipeline/vulkan/weight_kernel.cpp fills it in this order.
 
 #include "shared/edge_input.glsl"
@@ -48,7 +48,7 @@ struct LaneKernel {
 LaneKernel kernel;
 
 #define EDGEWISE_NUMBERS int
-#define EDGEWISE_AT(numbers, i) kernel_numbers[(numbers) + (i)]
+#define EDGEWISE_AT(numbers, i) kernelNumber((numbers) + (i))
 #define EDGEWISE_KERNEL_IN
 #define EDGEWISE_KERNEL
 
@@ -62,13 +62,13 @@ void readKernel(double radius, double inner_radius) {
     kernel.form = kForm;
     kernel.radius = radius;
     kernel.inner_radius = inner_radius;
-    kernel.scale = kernel_numbers[0];
-    kernel.sigma = kernel_numbers[1];
-    kernel.inverse_reach = kernel_numbers[2];
+    kernel.scale = kernelNumber(0);
+    kernel.sigma = kernelNumber(1);
+    kernel.inverse_reach = kernelNumber(2);
     int place = 6;
-    kernel.piece_rules[0] = PieceRule(kernel_numbers[3], ruleAt(place, kRule0));
-    kernel.piece_rules[1] = PieceRule(kernel_numbers[4], ruleAt(place, kRule1));
-    kernel.piece_rules[2] = PieceRule(kernel_numbers[5], ruleAt(place, kRule2));
+    kernel.piece_rules[0] = PieceRule(kernelNumber(3), ruleAt(place, kRule0));
+    kernel.piece_rules[1] = PieceRule(kernelNumber(4), ruleAt(place, kRule1));
+    kernel.piece_rules[2] = PieceRule(kernelNumber(5), ruleAt(place, kRule2));
     kernel.poly = place;
     place += kPolyNodes;
     kernel.poly_rule = ruleAt(place, kPolyNodes);

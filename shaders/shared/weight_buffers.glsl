@@ -7,7 +7,14 @@ layout(local_size_x = 64) in;
 #include "shared/weight_layouts.glsl"
 
 #ifdef EDGEWISE_READS_KERNEL
-layout(std430, binding = kWeightNumbers) uniform Numbers { work kernel_numbers[kKernelNumbers]; };
+// in vectors of 16 bytes: so std140 packs them tightly
+#ifdef EDGEWISE_FP32
+layout(std140, binding = kWeightNumbers) uniform Numbers { vec4 kernel_vectors[kKernelNumbers / 4]; };
+work kernelNumber(int i) { return kernel_vectors[i >> 2][i & 3]; }
+#else
+layout(std140, binding = kWeightNumbers) uniform Numbers { dvec2 kernel_vectors[kKernelNumbers / 2]; };
+work kernelNumber(int i) { return kernel_vectors[i >> 1][i & 1]; }
+#endif
 #endif
 layout(std430, binding = kWeightSegments) readonly buffer Segments { GpuSegment segments[]; };
 layout(std430, binding = kWeightLines) readonly buffer Lines { GpuCarrierLine lines[]; };

@@ -3,7 +3,6 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_EXT_scalar_block_layout : require  // std430 for the uniform numbers
 #define EDGEWISE_READS_KERNEL
 #include "shared/weight_buffers.glsl"
 #include "shared/edge_kernel.glsl"

@@ -117,6 +117,22 @@ TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {
     }
 }
 
+/// In two dimensions the error of a net falls with N^-3/4 where an edge or two cross a pixel.
+TEST(Compare, TellsHowFastASamplersErrorFalls) {
+    const TemporaryFolder folder;
+    Arguments methods{"--runs", "1", "--filter", "box"};
+    for (const char* method : {"ssaa:2", "ssaa:4", "ssaa:8", "ssaa:16"})
+        methods.insert(methods.end(), {"--method", method});
+    ASSERT_EQ(compareIn(folder, methods).status, 0);
+    const json slopes = resultsOf(folder).at("slopes");
+    ASSERT_EQ(slopes.size(), 1u);
+    EXPECT_EQ(slopes[0].at("family"), "ssaa:N");
+    EXPECT_NEAR(slopes[0].at("samples")[0], 4.0, 1e-9);
+    EXPECT_NEAR(slopes[0].at("samples")[1], 256.0, 1e-9);
+    EXPECT_LT(slopes[0].at("slope"), -0.5) << "no slower than independent samples";
+    EXPECT_GT(slopes[0].at("slope"), -1.0) << "no faster than an integrand without edges";
+}
+
 TEST(Compare, AMissingSceneIsNamed) {
     const TemporaryFolder folder;
     const ProgramRun run =

@@ -45,7 +45,7 @@ MethodResult render(const Scene& scene, const ResolvedCamera& camera, const Film
     return runMethod(parseMethod(method), {scene, camera, film, prefilter, options, progress});
 }
 
-const char* const kMethods[] = {"nsaa", "ssaa:4", "msaa:4", "none"};
+const char* const kMethods[] = {"nsaa", "ssaa:4", "msaa:4", "csaa:32", "none"};
 
 // 8 px high at 90 degrees: a pixel is 1/4 at distance 1. A square from pixel 2 to pixel 6 at distance 4 is
 // node 0; behind it, at distance 8, a half plane left of pixel 3.5 is node 1.
@@ -253,7 +253,7 @@ TEST(Aov, PointSampledOnesAreTheSameForEveryMethod) {
         for (int x = picture.film.crop.x0; x < picture.film.crop.x1; ++x)
             seen += Channels(nsaa.image).word("index", x, y) != kBackground;
     EXPECT_GT(seen, 1000u);
-    for (const char* method : {"none", "ssaa:3", "msaa:4"}) {
+    for (const char* method : {"none", "ssaa:3", "msaa:4", "csaa:32"}) {
         const MethodResult other =
             render(picture.scene, picture.camera, picture.film, method, "box", options);
         EXPECT_EQ(other.image.aov.words, nsaa.image.aov.words) << method;

@@ -97,7 +97,7 @@ TEST(Layers, EveryMethodCompositesTheSameStack) {
     const Scene scene = stackOf({{1, 1, 0, 1}, {1, 0, 0, 0.5}, {0, 1, 0, 0}, {0, 1, 1, 0.25}});
     // cyan 1/4 over red 1/2 over yellow; the pane of alpha 0 is not there
     const glm::dvec4 expected(0.75 * 0.5 + 0.375, 0.25 + 0.375, 0.25, 1.0);
-    for (const char* method : {"none", "ssaa:3", "msaa:4", "nsaa"}) {
+    for (const char* method : {"none", "ssaa:3", "msaa:4", "csaa:32", "nsaa"}) {
         const MethodResult result = pictureOf(scene).render(method);
         for (const glm::dvec4& p : result.image.rgba) expectNear(p, expected, 0x1p-50, method);
     }
@@ -107,7 +107,7 @@ TEST(Layers, PanesOverTheBackgroundLeaveTheirAlpha) {
     const Scene scene = stackOf({{1, 0, 0, 0.5}, {0, 1, 0, 0.25}});
     const double left = 0.5 * 0.75;
     const glm::dvec4 expected(glm::dvec3(0.75 * 0.5, 0.25, 0) + left * kBlue, 1 - left);
-    for (const char* method : {"none", "ssaa:3", "msaa:4", "nsaa"}) {
+    for (const char* method : {"none", "ssaa:3", "msaa:4", "csaa:32", "nsaa"}) {
         const MethodResult result = pictureOf(scene).render(method);
         for (const glm::dvec4& p : result.image.rgba) expectNear(p, expected, 0x1p-50, method);
     }
