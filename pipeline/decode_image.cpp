@@ -11,6 +11,7 @@
 #include "pipeline/decode_webp.h"
 #include "pipeline/error.h"
 #include "pipeline/png_chunks.h"
+#include "pipeline/srgb.h"
 
 namespace edgewise {
 namespace {
@@ -42,7 +43,7 @@ std::vector<float> linearTable(double largest, ColorEncoding encoding) {
     std::vector<float> table(static_cast<std::size_t>(largest) + 1);
     for (std::size_t i = 0; i < table.size(); ++i) {
         const double value = static_cast<double>(i) / largest;
-        table[i] = static_cast<float>(encoding == ColorEncoding::kSrgb ? linearFromSrgb(value) : value);
+        table[i] = static_cast<float>(encoding == ColorEncoding::kSrgb ? decodeSrgb(value) : value);
     }
     return table;
 }
@@ -51,10 +52,6 @@ std::vector<float> linearTable(double largest, ColorEncoding encoding) {
 
 bool isKnownPicture(std::span<const std::uint8_t> bytes) {
     return !formatName(bytes).empty();
-}
-
-double linearFromSrgb(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 PictureSamples decodeSamples(std::span<const std::uint8_t> bytes, std::uint64_t max_texels,

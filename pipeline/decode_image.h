@@ -10,9 +10,6 @@
 
 namespace edgewise {
 
-/// sRGB-encoded [0, 1] to linear, the exact piecewise curve of IEC 61966-2-1.
-double linearFromSrgb(double encoded);
-
 /// True if the first bytes are a PNG's, a JPEG's or a WebP's.
 bool isKnownPicture(std::span<const std::uint8_t> bytes);
 

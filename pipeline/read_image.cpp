@@ -15,6 +15,7 @@
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
 #include "pipeline/gltf_document.h"
+#include "pipeline/srgb.h"
 
 namespace edgewise {
 namespace {
@@ -92,8 +93,7 @@ ImageBuffer readExr(Bytes bytes, const std::string& what) {
 /// The linear value of every number that a sample may be.
 std::vector<double> linearValues(std::uint16_t largest) {
     std::vector<double> table(std::size_t{largest} + 1);
-    for (std::size_t i = 0; i < table.size(); ++i)
-        table[i] = linearFromSrgb(static_cast<double>(i) / largest);
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = decodeSrgb(static_cast<double>(i) / largest);
     return table;
 }
 

@@ -6,12 +6,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/compare/base64.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/error_slope.h"
-#include "pipeline/compare/html_text.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/error.h"
+#include "pipeline/html_text.h"
 
 namespace edgewise::compare {
 namespace {
@@ -61,13 +62,13 @@ std::string filterText(const Row& row) {
 
 std::string tableRow(const Row& row) {
     const Spread s = spreadOf(row.seconds);
-    std::string out = fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escaped(row.method),
-                                  escaped(filterText(row)), escaped(row.device));
+    std::string out = fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
+                                  escapedHtml(filterText(row)), escapedHtml(row.device));
     out += s.runs > 0
                ? cell(s.median, fmt::format("{:.4g}", s.median)) +
                      cell(s.max - s.min, fmt::format("{:.3g} &ndash; {:.3g}, {} runs", s.min, s.max, s.runs))
                : cell({}, fmt::format("<span class='bad'>{}</span>", nameOf(row.status))) +
-                     cell({}, escaped(row.why));
+                     cell({}, escapedHtml(row.why));
     out +=
         numberCell(s.runs > 0 ? std::optional(spreadOf(row.setup_seconds).median) : std::nullopt, "{:.3g}");
     const auto error = [&](auto&& part) {
@@ -98,15 +99,15 @@ std::string table(const Comparison& comparison) {
 std::string planOf(const Row& row) {
     std::string stages;
     for (const auto& [name, seconds] : row.stages)
-        stages += fmt::format("<dt>{}</dt><dd>{:.4g} s</dd>", escaped(name), spreadOf(seconds).median);
+        stages += fmt::format("<dt>{}</dt><dd>{:.4g} s</dd>", escapedHtml(name), spreadOf(seconds).median);
     std::string plan;
     for (const PlanEntry& entry : row.plan)
-        plan += fmt::format("<dt>{}</dt><dd>{}: {}</dd>", escaped(entry.stage),
-                            entry.runs ? "runs" : "left out", escaped(entry.why));
+        plan += fmt::format("<dt>{}</dt><dd>{}: {}</dd>", escapedHtml(entry.stage),
+                            entry.runs ? "runs" : "left out", escapedHtml(entry.why));
     std::string notes;
-    if (!row.why.empty()) notes += fmt::format("<p>{}</p>", escaped(row.why));
-    for (const std::string& note : row.notes) notes += fmt::format("<p>{}</p>", escaped(note));
-    return fmt::format("<details><summary>{}</summary>{}<dl>{}</dl>{}</details>\n", escaped(row.method),
+    if (!row.why.empty()) notes += fmt::format("<p>{}</p>", escapedHtml(row.why));
+    for (const std::string& note : row.notes) notes += fmt::format("<p>{}</p>", escapedHtml(note));
+    return fmt::format("<details><summary>{}</summary>{}<dl>{}</dl>{}</details>\n", escapedHtml(row.method),
                        notes, stages, plan.empty() ? "" : "<p>Plan</p><dl>" + plan + "</dl>");
 }
 
@@ -133,7 +134,7 @@ std::string slopesText(const Comparison& c) {
     std::string out;
     for (const ErrorSlope& s : errorSlopes(c.rows))
         out += fmt::format("<p>{}: RMSE falls like samples<sup>{:.3f}</sup>, {:.0f} to {:.0f} a pixel</p>",
-                           escaped(s.family), s.slope, s.least, s.most);
+                           escapedHtml(s.family), s.slope, s.least, s.most);
     return out;
 }
 
@@ -170,8 +171,9 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
                "<style>{1}</style></head><body><main><h1>{0}: error against run time</h1><p>edgewise {2}, "
                "reference "
                "<code>{3}</code><br><code>{4}</code><br>{5}, {6} threads, {7:.0f} MiB</p>\n",
-               escaped(c.scene), kReportStyle, escaped(c.version), escaped(c.reference), escaped(c.command),
-               escaped(c.machine.processor), c.machine.cores, c.machine.memory_mib) +
+               escapedHtml(c.scene), kReportStyle, escapedHtml(c.version), escapedHtml(c.reference),
+               escapedHtml(c.command), escapedHtml(c.machine.processor), c.machine.cores,
+               c.machine.memory_mib) +
            "<div class='card'>" + paretoSvg(c) + slopesText(c) +
            "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) +
            "</div>\n<h2>Pictures</h2><div class='card'>" + viewer() +

@@ -26,18 +26,6 @@ Json filterJson(const Row& row) {
     return {{"name", row.filter}, {"radius", row.radius}, {"sigma", orNull(row.sigma)}};
 }
 
-Json errorJson(const std::optional<judge::ErrorMetrics>& e) {
-    if (!e) return nullptr;
-    return {{"rmse", e->rmse},
-            {"max", e->max},
-            {"bias", e->bias},
-            {"psnr", orNull(e->psnr)},
-            {"edge_rmse", orNull(e->edge_rmse)},
-            {"edge_psnr", orNull(e->edge_psnr)},
-            {"ssim", e->ssim},
-            {"flip", e->flip}};
-}
-
 Json planJson(const std::vector<PlanEntry>& plan) {
     Json json = Json::array();
     for (const PlanEntry& entry : plan)
@@ -63,7 +51,7 @@ Json rowJson(const Row& row) {
             {"seconds", spreadJson(row.seconds)},
             {"setup_seconds", setup.runs == 0 ? Json() : Json(setup.median)},
             {"stages", stages},
-            {"error", errorJson(row.error)},
+            {"error", row.error ? judge::metricsJson(*row.error) : Json()},
             {"peak_mib", row.peak_mib},
             {"exr", fileJson(row.exr)},
             {"png", fileJson(row.png)},

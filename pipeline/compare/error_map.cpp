@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "pipeline/srgb.h"
 #include "pipeline/write_image.h"
 
 namespace edgewise::compare {
@@ -36,17 +37,13 @@ Color signedColor(double s) {
     return glm::mix(kGround, s < 0.0 ? kDarker : kLighter, std::abs(s));
 }
 
-/// encodeImage() encodes what it is given.
-double decoded(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 template <class ColorOf>
 std::vector<unsigned char> mapOf(const ImageBuffer& image, const ImageBuffer& reference, ColorOf&& color_of) {
     ImageBuffer map(image.box);
     for (std::size_t i = 0; i < map.rgba.size(); ++i) {
         const Color c = color_of(glm::dvec3(image.rgba[i]) - glm::dvec3(reference.rgba[i]));
-        map.rgba[i] = glm::dvec4(decoded(c.r), decoded(c.g), decoded(c.b), 1.0);
+        // encodeImage() encodes it again
+        map.rgba[i] = glm::dvec4(decodeSrgb(c.r), decodeSrgb(c.g), decodeSrgb(c.b), 1.0);
     }
     WriteOptions options;
     options.width = map.box.width(), options.height = map.box.height();

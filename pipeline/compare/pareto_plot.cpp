@@ -7,7 +7,7 @@
 #include <map>
 
 #include "pipeline/compare/error_slope.h"
-#include "pipeline/compare/html_text.h"
+#include "pipeline/html_text.h"
 
 namespace edgewise::compare {
 namespace {
@@ -134,12 +134,12 @@ std::string seriesSvg(const Plot& plot, const std::string& name, const std::vect
             "<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}' stroke='{}' stroke-width='1.5'><title>{}: "
             "{:.4g} s, RMSE "
             "{:.3g}</title></circle>",
-            x, y, p.error > 0.0 ? color : "#fff", color, escaped(p.label), p.seconds, p.error);
+            x, y, p.error > 0.0 ? color : "#fff", color, escapedHtml(p.label), p.seconds, p.error);
     }
     const double y = kTop + 14 + 18.0 * static_cast<double>(index), x = kLeft + kInnerWidth + 12;
     return fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='1.3'/>{}", path, color, dots) +
            fmt::format("<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>", x, y - 4,
-                       color, x + 10, y, escaped(name));
+                       color, x + 10, y, escapedHtml(name));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/html_text.h"
+
 namespace edgewise::judge {
 namespace {
 
@@ -119,32 +121,6 @@ std::string plotSvg(const PlotFrame& frame, const std::vector<PlotSeries>& serie
     out += canvas.axes();
     for (const PlotSeries& one : series) out += drawn(canvas, one);
     return out + "</svg>\n";
-}
-
-std::string escapedHtml(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
 }
 
 }  // namespace edgewise::judge

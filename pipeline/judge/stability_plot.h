@@ -32,7 +32,4 @@ struct PlotFrame {
 /// One <svg>: a line with dots a series, its bound dashed in the same colour, hollow dots for errors of 0.
 std::string plotSvg(const PlotFrame& frame, const std::vector<PlotSeries>& series);
 
-/// & < > " as HTML has them.
-std::string escapedHtml(const std::string& text);
-
 }  // namespace edgewise::judge

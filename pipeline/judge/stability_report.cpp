@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/html_text.h"
 #include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_plot.h"
 #include "pipeline/version.h"

@@ -16,6 +16,7 @@
 #include "pipeline/methods/display_picture.h"
 #include "pipeline/methods/post_process.h"
 #include "pipeline/methods/registry.h"
+#include "pipeline/srgb.h"
 
 namespace edgewise {
 namespace {
@@ -143,7 +144,7 @@ glm::dvec4 mixed(const EncodedPicture& encoded, const ImageBuffer& image, glm::i
     };
     const glm::dvec3 color =
         glm::mix(glm::dvec3(encoded.at(from.x, from.y)), glm::dvec3(encoded.at(to.x, to.y)), amount);
-    return {linearFromSrgb(color.r), linearFromSrgb(color.g), linearFromSrgb(color.b),
+    return {decodeSrgb(color.r), decodeSrgb(color.g), decodeSrgb(color.b),
             glm::mix(alpha(from), alpha(to), amount)};
 }
 

@@ -29,7 +29,7 @@ glm::dvec4 encoded(const glm::dvec4& linear) {
 }
 
 glm::dvec4 decoded(const glm::dvec4& color) {
-    return {linearFromSrgb(color.r), linearFromSrgb(color.g), linearFromSrgb(color.b), color.a};
+    return {decodeSrgb(color.r), decodeSrgb(color.g), decodeSrgb(color.b), color.a};
 }
 
 /// The mixture with the two neighbours of the axis that has the larger share: each as much as its share, and

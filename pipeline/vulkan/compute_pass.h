@@ -1,6 +1,7 @@
 // A compute shader with its bindings: storage buffers, then images that it reads, and push constants.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -8,12 +9,18 @@
 
 namespace edgewise::vulkan {
 
-/// Workgroups of a dispatch; each dimension is at most 65535.
+/// Workgroups of a dispatch; each dimension is at most kMostInRow.
 struct Groups {
+    static constexpr std::uint32_t kMostInRow = 65535;
     std::uint32_t x, y = 1;
     /// As many as cover `count` invocations, `size` each.
     static Groups covering(std::size_t count, std::uint32_t size) {
         return {static_cast<std::uint32_t>((count + size - 1) / size)};
+    }
+    /// `count` of them, in rows.
+    static Groups inRows(std::size_t count) {
+        const auto groups = static_cast<std::uint32_t>(count), row = std::min(groups, kMostInRow);
+        return {row, row == 0 ? 0 : (groups + row - 1) / row};
     }
 };
 

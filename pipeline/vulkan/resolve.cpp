@@ -50,8 +50,6 @@ SampleWalk walkOver(const ResolveTable& table) {
     return walk;
 }
 
-constexpr std::uint32_t kMostGroups = 65535;
-
 /// Owners that an invocation holds: a workgroup's all lie in shared memory.
 uint slotsOn(const Device& device) {
     const std::size_t room = device.traits().max_shared_bytes / (kResolveGroup * (sizeof(uint) + 8));
@@ -94,15 +92,11 @@ std::size_t Resolve::roomFor(const PixelBox& box) {
 
 ResolvePush Resolve::pushFor(const PixelBox& box) const {
     const int around = 2 * table_.margin_px;
-    return {static_cast<uint>(box.width()),
-            static_cast<uint>(box.height()),
-            static_cast<uint>(box.width() + around),
-            static_cast<uint>(box.height() + around),
-            static_cast<uint>(table_.margin_px),
-            static_cast<uint>(table_.columns),
-            static_cast<uint>(table_.rows),
-            static_cast<uint>(roomFor(box)),
-            kMostGroups * kResolveGroup};
+    return {static_cast<uint>(box.width()),          static_cast<uint>(box.height()),
+            static_cast<uint>(box.width() + around), static_cast<uint>(box.height() + around),
+            static_cast<uint>(table_.margin_px),     static_cast<uint>(table_.columns),
+            static_cast<uint>(table_.rows),          static_cast<uint>(roomFor(box)),
+            Groups::kMostInRow * kResolveGroup};
 }
 
 Resolve::Resolved Resolve::addTo(PassGraph& graph, Resource samples, const PixelBox& box) {
@@ -147,17 +141,15 @@ void Resolve::addPasses(PassGraph& graph, Resource samples, Resource uniform, co
                }});
     // How many are mixed is known to the host before they are dispatched.
     graph.add("weights mixed", {.reads = {out.status}, .writes = lists, .host = [](const PassGraph&) {}});
-    graph.add("weights resolve", {.reads = {samples, uniform, out.mixed, out.status},
-                                  .writes = lists,
-                                  .record = [=, this](const PassContext& pass) {
-                                      const uint mixed = pass[out.status].read<ResolveStatus>(1)[0].mixed;
-                                      // One at least: the first draw compiles what there is to compile.
-                                      const std::uint32_t groups = std::max(
-                                                              1u, Groups::covering(mixed, kResolveGroup).x),
-                                                          columns = std::min(groups, kMostGroups);
-                                      resolve_.dispatch(pass.commands, buffers(pass),
-                                                        {columns, (groups + columns - 1) / columns}, push);
-                                  }});
+    graph.add("weights resolve",
+              {.reads = {samples, uniform, out.mixed, out.status},
+               .writes = lists,
+               .record = [=, this](const PassContext& pass) {
+                   const uint mixed = pass[out.status].read<ResolveStatus>(1)[0].mixed;
+                   // One at least: the first draw compiles what there is to compile.
+                   const std::uint32_t groups = std::max(1u, Groups::covering(mixed, kResolveGroup).x);
+                   resolve_.dispatch(pass.commands, buffers(pass), Groups::inRows(groups), push);
+               }});
 }
 
 Resolve::Lists Resolve::addOrder(PassGraph& graph, const Resolved& resolved, const PixelBox& box,
@@ -166,9 +158,8 @@ Resolve::Lists Resolve::addOrder(PassGraph& graph, const Resolved& resolved, con
     const Resource offsets = scan_.addTo(graph, "weights", resolved.counts, pixelsOf(box));
     const Lists out{offsets, graph.buffer("entry owners", [entries] { return entries * sizeof(uint); }),
                     graph.buffer("entry weights", [entries] { return entries * sizeof(std::int64_t); })};
-    const std::uint32_t groups = Groups::covering(pixelsOf(box), kGroup).x,
-                        columns = std::min(groups, kMostGroups);
-    const OrderPush push{static_cast<uint>(pixelsOf(box)), columns * kGroup};
+    const Groups groups = Groups::inRows(Groups::covering(pixelsOf(box), kGroup).x);
+    const OrderPush push{static_cast<uint>(pixelsOf(box)), groups.x * kGroup};
     order_.forgetSets();
     graph.add("weights order", {.reads = {resolved.first, offsets, resolved.owners, resolved.weights},
                                 .writes = {out.owners, out.weights},
@@ -177,7 +168,7 @@ Resolve::Lists Resolve::addOrder(PassGraph& graph, const Resolved& resolved, con
                                         pass.commands,
                                         {pass[resolved.first], pass[offsets], pass[resolved.owners],
                                          pass[resolved.weights], pass[out.owners], pass[out.weights]},
-                                        {columns, (groups + columns - 1) / columns}, push);
+                                        groups, push);
                                 }});
     return out;
 }

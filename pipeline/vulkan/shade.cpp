@@ -6,7 +6,7 @@
 namespace edgewise::vulkan {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64, kMostGroups = 65535;
+constexpr std::uint32_t kGroupSize = 64;
 
 /// Of one invocation: 4, 8 or 16 run together, each at its own pace in the worst case.
 std::uint32_t mostTurns(const Device& device) {
@@ -16,12 +16,6 @@ std::uint32_t mostTurns(const Device& device) {
 Specialization constantsOf(const Device& device, const ShadeTables& tables) {
     return {tables.uses, static_cast<std::uint32_t>(std::max<std::size_t>(tables.banks.size(), 1)),
             mostTurns(device)};
-}
-
-Groups groupsOf(std::uint32_t invocations) {
-    const std::uint32_t groups = Groups::covering(invocations, kGroupSize).x,
-                        columns = std::min(groups, kMostGroups);
-    return {columns, columns == 0 ? 0 : (groups + columns - 1) / columns};
 }
 
 /// With one word, before the shaders that follow.
@@ -81,7 +75,7 @@ Resource ShadePass::addSigning(PassGraph& graph, const ShadeEntries& entries) {
               {.reads = {entries.offsets}, .writes = {pixels}, .record = [=, this](const PassContext& pass) {
                    const PixelBox box = entries.box();
                    const auto count = static_cast<std::uint32_t>(box.width() * box.height());
-                   const Groups groups = groupsOf(count);
+                   const Groups groups = Groups::inRows(Groups::covering(count, kGroupSize).x);
                    const SignPush push{count, groups.x * kGroupSize, most_signed_};
                    fill(pass, pixels, kAbsent);
                    sign_.forgetSets();
@@ -106,7 +100,7 @@ void ShadePass::record(const PassContext& pass, const ShadeEntries& entries,
 
     const PixelBox box = entries.box();
     const auto count = static_cast<std::uint32_t>(entries.count());
-    const Groups groups = groupsOf(count);
+    const Groups groups = Groups::inRows(Groups::covering(count, kGroupSize).x);
     const ShadePush push{box.x0,
                          box.y0,
                          static_cast<std::uint32_t>(box.width()),

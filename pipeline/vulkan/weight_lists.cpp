@@ -10,18 +10,12 @@ namespace edgewise::vulkan {
 namespace {
 
 constexpr std::uint32_t kGroup = 64;
-constexpr std::uint32_t kMostGroups = 65535;
 
 /// Invocations that may share one count of turns.
 constexpr std::size_t kTogether = 16;
 
 /// Of a list's buffers: more is halved, whatever a binding may hold.
 constexpr std::size_t kMostListBytes = std::size_t{256} << 20;
-
-Groups rowsOf(std::size_t groups) {
-    const auto count = static_cast<std::uint32_t>(groups), row = std::min(count, kMostGroups);
-    return {row, row == 0 ? 0 : (count + row - 1) / row};
-}
 
 /// What prefix sums of more than 32 bits come to.
 constexpr uint kOverflow = 0xffffffff;
@@ -66,8 +60,8 @@ struct WeightListPasses::Job {
     void dispatch(const PassContext& pass, ComputePass& shader, const std::vector<BufferRange>& buffers,
                   std::size_t groups) const {
         WeightListPush at = push;
-        at.group_row = rowsOf(groups).x;
-        shader.dispatch(pass.commands, buffers, rowsOf(groups), at);
+        at.group_row = Groups::inRows(groups).x;
+        shader.dispatch(pass.commands, buffers, Groups::inRows(groups), at);
     }
 
     /// By binding; `segments` stands where there is nothing.

@@ -19,7 +19,6 @@ constexpr std::size_t kMostSumBytes = std::size_t{30} << 20;
 constexpr std::size_t kMostPairBytes = std::size_t{80} << 20;
 constexpr std::size_t kPairBytes = sizeof(GpuPair) + kNotesPerPair * sizeof(GpuBorderNote);
 
-constexpr std::uint32_t kMostGroups = 65535;
 constexpr std::uint32_t kGroup = 64;
 constexpr std::size_t kTilePixels = std::size_t{kTilePx} * kTilePx;
 
@@ -33,11 +32,6 @@ Buffer numbersOf(const Device& device, const WeightKernel& kernel, Precision pre
 
 const char* shaderOf(Precision precision) {
     return precision == Precision::kFp64 ? "weights_fp64.comp" : "weights_fp32.comp";
-}
-
-Groups groupsOf(std::size_t count) {
-    const auto groups = static_cast<std::uint32_t>(count), row = std::min(groups, kMostGroups);
-    return {row, row == 0 ? 0 : (groups + row - 1) / row};
 }
 
 /// Between dispatches that read what the last has written.
@@ -224,7 +218,7 @@ void WeightPasses::recordPairs(const PassContext& pass, const Job& job) {
     for (std::size_t row = 0; row < job.tiles.rows; ++row) {
         const std::size_t first = job.tiles.listed(row * job.tiles.columns), end = first + job.tiles.columns;
         const uint entry = job.lists.entry_begin[first], count = job.lists.entry_begin[end] - entry;
-        const Groups groups = groupsOf((count + kGroup - 1) / kGroup);
+        const Groups groups = Groups::inRows((count + kGroup - 1) / kGroup);
         WeightPush push = job.push(kernel_.kernel.lanes, groups);
         push.first = entry, push.count = count, push.pairs_before = job.lists.pair_begin[first] - named;
         if (count > 0) pairs_.dispatch(pass.commands, buffers, groups, push);
@@ -247,7 +241,7 @@ void WeightPasses::recordTerms(const PassContext& pass, const Job& job) {
     auto buffers = job.bindings(numbers_);
     buffers[kWeightPairs] = pass[job.pairs], buffers[kWeightNotes] = pass[job.notes];
     buffers[kWeightSums] = pass[job.sums], buffers[kWeightStates] = pass[job.states];
-    const Groups groups = groupsOf((job.tiles.pairs + kGroup - 1) / kGroup);
+    const Groups groups = Groups::inRows((job.tiles.pairs + kGroup - 1) / kGroup);
     WeightPush push = job.push(kernel_.kernel.lanes, groups);
     push.count = static_cast<uint>(job.tiles.pairs);
     if (push.count > 0) terms_.dispatch(pass.commands, buffers, groups, push);
@@ -284,7 +278,7 @@ void WeightPasses::addFinish(PassGraph& graph, const std::shared_ptr<Job>& job) 
              buffers[kWeightSums] = pass[job->sums], buffers[kWeightStates] = pass[job->states];
              buffers[kWeightPixels] = pass[job->kinds], buffers[kWeightCounts] = pass[job->counts];
              finish_.forgetSets();
-             const Groups groups = groupsOf(job->tiles.count());
+             const Groups groups = Groups::inRows(job->tiles.count());
              finish_.dispatch(pass.commands, buffers, groups, job->push(kernel_.kernel.lanes, groups));
          }});
     graph.add("weights on the host", {.reads = {job->reports, job->handed_list, job->counts},
@@ -331,7 +325,7 @@ void WeightPasses::addFill(PassGraph& graph, const std::shared_ptr<Job>& job) {
                    buffers[kWeightOutOwners] = pass[job->out_owners];
                    buffers[kWeightOutWeights] = pass[job->out_weights];
                    fill_.forgetSets();
-                   const Groups groups = groupsOf(job->tiles.count());
+                   const Groups groups = Groups::inRows(job->tiles.count());
                    fill_.dispatch(pass.commands, buffers, groups, job->push(kernel_.kernel.lanes, groups));
                }});
     graph.add("weights from the host", {.reads = {job->out_offsets, job->out_owners, job->out_weights},

@@ -3,6 +3,7 @@
 
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
+#include "pipeline/srgb.h"
 #include "tests/pipeline/post_pictures.h"
 
 namespace edgewise {
@@ -14,7 +15,7 @@ TEST(Fxaa, LeavesFlatAndFaintPicturesAlone) {
     // 21/255 is less than the smallest threshold, 22/255 more.
     for (const int step : {21, 22}) {
         const ImageBuffer faint = test::makePicture(
-            20, 15, [&](int x, int) { return glm::dvec3(linearFromSrgb(x < 9 ? 0.0 : step / 255.0)); });
+            20, 15, [&](int x, int) { return glm::dvec3(decodeSrgb(x < 9 ? 0.0 : step / 255.0)); });
         EXPECT_EQ(test::filtered(faint, "fxaa").rgba == faint.rgba, step == 21);
     }
 }
@@ -30,8 +31,8 @@ TEST(Fxaa, AStraightEdgeIsSoftenedByItsSubpixelPart) {
         const auto at = [&](int across) {
             return result.rgba[columns ? result.index(across, 32) : result.index(32, across)].r;
         };
-        EXPECT_NEAR(at(31), linearFromSrgb(share), 1e-6);  // luma is float32
-        EXPECT_NEAR(at(32), linearFromSrgb(1.0 - share), 1e-6);
+        EXPECT_NEAR(at(31), decodeSrgb(share), 1e-6);  // luma is float32
+        EXPECT_NEAR(at(32), decodeSrgb(1.0 - share), 1e-6);
         EXPECT_EQ(at(30), 0.0);
         EXPECT_EQ(at(33), 1.0);
     }
@@ -44,7 +45,7 @@ TEST(Fxaa, APixelBesideAStepMovesByHowNearTheStepIs) {
     const ImageBuffer image = test::makePicture(
         96, 33, [](int x, int y) { return glm::dvec3(y > 16 || (y == 16 && x > 32) ? 1.0 : 0.0); });
     const ImageBuffer result = test::filtered(image, "fxaa:preset=12");
-    EXPECT_NEAR(result.rgba[result.index(36, 16)].r, linearFromSrgb(1.0 - 0.32), 1e-6);
+    EXPECT_NEAR(result.rgba[result.index(36, 16)].r, decodeSrgb(1.0 - 0.32), 1e-6);
 }
 
 TEST(Fxaa, BringsAnEdgeOfSlopeAnEighthNearerToItsCoverage) {

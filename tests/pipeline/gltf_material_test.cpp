@@ -5,6 +5,7 @@
 
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
+#include "pipeline/srgb.h"
 #include "tests/pipeline/feature_gltf.h"
 #include "tests/pipeline/load_scene.h"
 
@@ -37,7 +38,7 @@ TEST(GltfMaterial, OnePictureIsDecodedOnceForEachEncoding) {
     const Material& m = scene.materials[0];
     EXPECT_EQ(scene.images.size(), 4u) << "two pictures, each as colours and as numbers";
     EXPECT_EQ(m.normal_map.texture, m.occlusion_map.texture);
-    const auto linear = [](int byte) { return static_cast<float>(linearFromSrgb(byte / 255.0)); };
+    const auto linear = [](int byte) { return static_cast<float>(decodeSrgb(byte / 255.0)); };
     const auto plain = [](int byte) { return static_cast<float>(byte / 255.0); };
     EXPECT_EQ(firstTexel(scene, m.base_color_map), glm::vec4(linear(0x80), linear(0x40), 1, 1));
     EXPECT_EQ(firstTexel(scene, m.metallic_roughness_map), glm::vec4(plain(0x80), plain(0x40), 1, 1));

@@ -12,6 +12,7 @@
 
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
+#include "pipeline/srgb.h"
 #include "pipeline/write_image.h"
 
 namespace edgewise {
@@ -110,17 +111,16 @@ TEST_F(ReadImage, TiledAndGreyExrsAreRead) {
 TEST_F(ReadImage, PngIsDecodedToTheDouble) {
     const ImageBuffer eight = readImage(writeOther("a.png", OIIO::ImageSpec(2, 1, 3, OIIO::TypeDesc::UINT8),
                                                    std::vector<unsigned char>{0, 10, 188, 255, 1, 2}));
-    EXPECT_EQ(eight.rgba[0], glm::dvec4(0.0, linearFromSrgb(10 / 255.0), linearFromSrgb(188 / 255.0), 1.0));
+    EXPECT_EQ(eight.rgba[0], glm::dvec4(0.0, decodeSrgb(10 / 255.0), decodeSrgb(188 / 255.0), 1.0));
     EXPECT_EQ(eight.rgba[1].r, 1.0);
     EXPECT_TRUE(eight.edge.empty());
     const ImageBuffer sixteen =
         readImage(writeOther("b.png", OIIO::ImageSpec(1, 1, 4, OIIO::TypeDesc::UINT16),
                              std::vector<unsigned short>{1000, 30000, 65535, 65535}));
-    EXPECT_EQ(sixteen.rgba[0],
-              glm::dvec4(linearFromSrgb(1000 / 65535.0), linearFromSrgb(30000 / 65535.0), 1.0, 1.0));
+    EXPECT_EQ(sixteen.rgba[0], glm::dvec4(decodeSrgb(1000 / 65535.0), decodeSrgb(30000 / 65535.0), 1.0, 1.0));
     const ImageBuffer grey = readImage(writeOther("c.png", OIIO::ImageSpec(1, 1, 1, OIIO::TypeDesc::UINT8),
                                                   std::vector<unsigned char>{128}));
-    EXPECT_EQ(grey.rgba[0], glm::dvec4(glm::dvec3(linearFromSrgb(128 / 255.0)), 1.0));
+    EXPECT_EQ(grey.rgba[0], glm::dvec4(glm::dvec3(decodeSrgb(128 / 255.0)), 1.0));
 }
 
 TEST_F(ReadImage, WhatIsNoPictureIsRefusedByName) {

@@ -7,6 +7,7 @@
 
 #include "pipeline/decode_image.h"
 #include "pipeline/methods/smaa_textures.h"
+#include "pipeline/srgb.h"
 #include "tests/pipeline/post_pictures.h"
 #include "tests/pipeline/shipped_picture.h"
 
@@ -18,7 +19,7 @@ constexpr SmaaSettings kStraightOnly{
 
 /// Linear colour of an 8-bit code.
 glm::dvec3 grey(int code) {
-    return glm::dvec3(linearFromSrgb(code / 255.0));
+    return glm::dvec3(decodeSrgb(code / 255.0));
 }
 
 TEST(SmaaEdges, AreWhereTheEncodedContrastReachesTheThreshold) {
@@ -49,7 +50,7 @@ TEST(SmaaEdges, AMuchStrongerEdgeNearbyMasks) {
 TEST(SmaaEdges, OfColorSeeWhatLumaDoesNot) {
     Progress progress;
     const ImageBuffer image = test::makePicture(
-        6, 3, [](int x, int) { return glm::dvec3(0.2, 0.2, linearFromSrgb(x < 3 ? 0.2 : 0.8)); });
+        6, 3, [](int x, int) { return glm::dvec3(0.2, 0.2, decodeSrgb(x < 3 ? 0.2 : 0.8)); });
     EXPECT_EQ(findEdges(image, {}, progress).at(3, 1), 0);
     EXPECT_EQ(findEdges(image, {.color_edges = true}, progress).at(3, 1), kLeftEdge);
 }
@@ -118,7 +119,7 @@ TEST(SmaaBlend, AHalfMixesTwoPixelsInTheAskedSpace) {
         SmaaWeights weights(1, 3);
         weights.texel(0, 1) = {51, 102, 0, 0};
         blendNeighbours(weights, {.gamma_blend = gamma}, image, progress);
-        const auto expected = [&](double share) { return gamma ? linearFromSrgb(share) : share; };
+        const auto expected = [&](double share) { return gamma ? decodeSrgb(share) : share; };
         EXPECT_DOUBLE_EQ(image.rgba[1].r, expected(1.0 - 51 / 255.0));
         EXPECT_DOUBLE_EQ(image.rgba[0].r, expected(102 / 255.0));
         EXPECT_EQ(image.rgba[0].a, 1.0);

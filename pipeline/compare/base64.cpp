@@ -1,4 +1,4 @@
-#include "pipeline/compare/html_text.h"
+#include "pipeline/compare/base64.h"
 
 #include <algorithm>
 #include <boost/archive/iterators/base64_from_binary.hpp>
@@ -6,30 +6,6 @@
 #include <vector>
 
 namespace edgewise::compare {
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
-        }
-    return out;
-}
 
 std::string base64(std::span<const unsigned char> bytes) {
     namespace it = boost::archive::iterators;
