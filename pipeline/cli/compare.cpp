@@ -21,6 +21,7 @@
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/schedule.h"
+#include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/progress_bar.h"
@@ -205,7 +206,7 @@ class Study {
         writeAtomically(folder_ / "results.csv", compare::comparisonCsv(comparison_));
         writeAtomically(folder_ / "table.tex", compare::comparisonLatex(comparison_));
         writeAtomically(folder_ / "pareto.svg", svg);
-        writeAtomically(folder_ / "pareto.pdf", compare::paretoPdf(svg));
+        writeAtomically(folder_ / "pareto.pdf", compare::svgPdf(svg, "pareto.pdf"));
         writeAtomically(folder_ / "report.html",
                         compare::comparisonHtml(comparison_, folder_.path(),
                                                 references_.at(keyOf(arguments_.filter)).png));

@@ -180,7 +180,7 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +
            "</div></main>\n<script type='application/json' id='pictures'>" +
-           picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript +
+           picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript + kSortScript +
            "</script></body></html>\n";
 }
 

@@ -31,6 +31,25 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 16px;margin:0}dt{f
 details{margin:6px 0}summary{cursor:pointer}
 )css";
 
+/// A click on a header sorts its table, by data-value where cells have one.
+inline constexpr const char* kSortScript = R"js(
+"use strict";
+for (const header of document.querySelectorAll("th")) header.addEventListener("click", () => {
+  const body = header.closest("table").tBodies[0], column = header.cellIndex;
+  const up = header.getAttribute("aria-sort") !== "ascending";
+  for (const other of header.parentNode.cells) other.removeAttribute("aria-sort");
+  header.setAttribute("aria-sort", up ? "ascending" : "descending");
+  const key = (row) => {
+    const cell = row.cells[column], number = cell.dataset.value;
+    return number === undefined ? cell.textContent : number === "" ? Infinity : Number(number);
+  };
+  [...body.rows].sort((a, b) => {
+    const p = key(a), q = key(b), order = p < q ? -1 : p > q ? 1 : 0;
+    return up ? order : -order;
+  }).forEach((row) => body.append(row));
+});
+)js";
+
 /// Of `rows`: [{name, picture, signed, absolute}], the first one the reference.
 inline constexpr const char* kReportScript = R"js(
 "use strict";
@@ -137,20 +156,6 @@ document.addEventListener("keydown", (event) => {
 });
 window.addEventListener("resize", draw);
 
-for (const header of document.querySelectorAll("th")) header.addEventListener("click", () => {
-  const body = header.closest("table").tBodies[0], column = header.cellIndex;
-  const up = header.getAttribute("aria-sort") !== "ascending";
-  for (const other of header.parentNode.cells) other.removeAttribute("aria-sort");
-  header.setAttribute("aria-sort", up ? "ascending" : "descending");
-  const key = (row) => {
-    const cell = row.cells[column], number = cell.dataset.value;
-    return number === undefined ? cell.textContent : number === "" ? Infinity : Number(number);
-  };
-  [...body.rows].sort((a, b) => {
-    const p = key(a), q = key(b), order = p < q ? -1 : p > q ? 1 : 0;
-    return up ? order : -order;
-  }).forEach((row) => body.append(row));
-});
 draw();
 )js";
 
