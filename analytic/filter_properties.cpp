@@ -14,7 +14,7 @@ constexpr int kNodes = 32;
 constexpr double kOscillations = 2.0;
 /// Scans for roots and maxima, steps a support.
 constexpr int kScan = 1024;
-constexpr int kOrientations = 16;  ///< Gauss nodes of an eighth of the circle
+constexpr int kOrientations = 8;  ///< Gauss nodes of an eighth of the circle
 
 const GaussRule& rule() {
     static const GaussRule rule = gaussRule(kNodes);

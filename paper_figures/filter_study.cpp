@@ -179,6 +179,29 @@ void throwIfCancelled(Progress& progress) {
     if (progress.cancelled()) throw Interrupted();
 }
 
+/// Filters side by side: a part of a picture alone keeps few threads busy.
+void studyPattern(FilterStudy& out, const PatternView& view, Progress& progress) {
+    Inner inner(progress);
+    out.patterns.push_back(view.name);
+    const std::size_t shifts = static_cast<std::size_t>(out.per_px) * out.per_px;
+    progress.stage(view.name, out.rows.size() * shifts);
+    std::vector<std::optional<StudyPicture>> pictures(out.rows.size());
+    tbb::parallel_for(std::size_t(0), out.rows.size(), [&](std::size_t i) {
+        FilterRow& row = out.rows[i];
+        const auto advance = [&] {
+            throwIfCancelled(progress);
+            progress.advance(1);
+        };
+        const FinePicture fine = renderFinely(view, row.filter, out.per_px, inner, advance);
+        const AliasedPart part = aliasedPart(fine, view.margin_px);
+        row.patterns.push_back({part.rms, part.share});
+        if (row.paper_radius) pictures[i] = pictureOf(view.name, row.filter, part);
+    });
+    for (std::optional<StudyPicture>& picture : pictures)
+        if (picture) out.pictures.push_back(std::move(*picture));
+    out.pictures.push_back(pictureBeside(view, inner));
+}
+
 FilterStudy study(const Effort& effort, Progress& progress) {
     FilterStudy out;
     out.per_px = effort.per_px, out.part_px = effort.part_px;
@@ -190,20 +213,7 @@ FilterStudy study(const Effort& effort, Progress& progress) {
         analyse(out.rows[i], inner);
         progress.advance(1);
     });
-    for (const PatternPlace& place : kPlaces) {
-        const PatternView view = viewOf(place, effort);
-        out.patterns.push_back(view.name);
-        progress.stage(view.name, out.rows.size() * effort.per_px * effort.per_px);
-        for (FilterRow& row : out.rows) {
-            const FinePicture fine =
-                renderFinely(view, row.filter, effort.per_px, inner, [&] { progress.advance(1); });
-            const AliasedPart part = aliasedPart(fine, effort.margin_px);
-            row.patterns.push_back({part.rms, part.share});
-            if (row.paper_radius) out.pictures.push_back(pictureOf(view.name, row.filter, part));
-            throwIfCancelled(progress);
-        }
-        out.pictures.push_back(pictureBeside(view, inner));
-    }
+    for (const PatternPlace& place : kPlaces) studyPattern(out, viewOf(place, effort), progress);
     return out;
 }
 

@@ -41,7 +41,8 @@ for (const tick of document.querySelectorAll(".shown input")) tick.addEventListe
 const zoom = document.getElementById("zoom");
 const resize = () => {
   for (const picture of document.querySelectorAll(".pictures img"))
-    picture.style.width = picture.width = picture.naturalWidth * Number(zoom.value) / window.devicePixelRatio + "px";
+    picture.style.width = picture.style.height =
+      picture.naturalWidth * Number(zoom.value) / window.devicePixelRatio + "px";
 };
 zoom.addEventListener("change", resize);
 window.addEventListener("load", resize);
@@ -97,7 +98,7 @@ std::vector<Column> columnsOf(const FilterStudy& study) {
          "{:.1e}"},
         {"of its bound", "the same over what a finely sampled edge may err",
          [](const FilterRow& r) { return std::max(r.axis.residual_of_bound, r.diagonal.residual_of_bound); },
-         "{:.2f}"}};
+         "{:.2g}"}};
     for (std::size_t i = 0; i < study.patterns.size(); ++i)
         columns.insert(columns.begin() + kPatternColumn + static_cast<std::ptrdiff_t>(i),
                        {study.patterns[i] + ", aliased %", "what aliases, of the variance of the picture",
@@ -105,10 +106,11 @@ std::vector<Column> columnsOf(const FilterStudy& study) {
     return columns;
 }
 
-/// What rounds to nothing is 0, without a sign.
+/// What rounds to 0 has no sign.
 std::string cell(double value, const char* format) {
-    const double shown = std::abs(value) < 1e-15 ? 0.0 : value;
-    return fmt::format("<td data-value='{}'>{}</td>", value, fmt::format(fmt::runtime(format), shown));
+    std::string shown = fmt::format(fmt::runtime(format), value);
+    if (shown.starts_with('-') && shown.find_first_of("123456789") == std::string::npos) shown.erase(0, 1);
+    return fmt::format("<td data-value='{}'>{}</td>", value, shown);
 }
 
 std::string table(const FilterStudy& study) {
