@@ -20,6 +20,7 @@
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/pareto_plot.h"
+#include "pipeline/compare/sampler_statistics.h"
 #include "pipeline/compare/schedule.h"
 #include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
@@ -124,7 +125,7 @@ class Study {
 
   private:
     struct Reference {
-        ImageBuffer picture;
+        compare::ReferencePicture made;
         std::string png;
     };
 
@@ -144,10 +145,10 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.picture = compare::pictureOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_);
         size_ = row.size;
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
-        writePicture(reference.picture, fileName("reference-" + filter.name), row.device);
+        writePicture(reference.made.picture, fileName("reference-" + filter.name), row.device);
         return reference;
     }
 
@@ -163,9 +164,12 @@ class Study {
     }
 
     void judge(Row& row, const ImageBuffer& picture) {
-        const ImageBuffer& truth = makeReference(filterFor(arguments_, row.method)).picture;
+        const auto& [truth, edges] = makeReference(filterFor(arguments_, row.method)).made;
         const std::string name = fileName(row.method);
         row.error = judge::compareImages(picture, truth);
+        const std::vector<glm::dvec3> errors = judge::signedErrors(picture, truth);
+        row.bias_half_width = compare::biasHalfWidth(errors, truth.box.width());
+        if (!edges.empty()) row.few_edges = compare::fewEdgesError(errors, edges);
         writePicture(picture, name, row.device);
         row.exr = name + ".exr", row.png = name + ".png";
         row.signed_map = name + ".signed.png", row.absolute_map = name + ".absolute.png";

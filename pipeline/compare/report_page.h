@@ -56,7 +56,7 @@ inline constexpr const char* kReportScript = R"js(
 const rows = JSON.parse(document.getElementById("pictures").textContent);
 const views = document.querySelector(".views");
 const kinds = {picture: "picture", signed: "signed error", absolute: "absolute error"};
-const state = {left: 0, right: Math.min(2, rows.length - 1), kind: "picture", zoom: 0, x: 0, y: 0, flipped: false};
+const state = {left: 0, right: Math.min(2, rows.length - 1), kind: "picture", whole: true, zoom: 1, x: 0, y: 0, flipped: false};
 const loaded = new Map();
 
 function image(row, kind) {
@@ -78,7 +78,7 @@ function drawOne(view, row) {
   context.clearRect(0, 0, width, height);
   view.querySelector("b").textContent = rows[row].name + (state.kind === "picture" ? "" : ", " + kinds[state.kind]);
   if (!shown.complete || !shown.naturalWidth) return;
-  if (!state.zoom) fit(shown, view);
+  if (state.whole) fit(shown, view);
   const scale = state.zoom * ratio;
   context.imageSmoothingEnabled = state.zoom < 1;
   context.drawImage(shown, width / 2 - state.x * scale, height / 2 - state.y * scale,
@@ -108,6 +108,7 @@ function zoomBy(factor, view, event) {
   state.x += dx / state.zoom - dx / next;
   state.y += dy / state.zoom - dy / next;
   state.zoom = next;
+  state.whole = false;
   draw();
 }
 
@@ -130,6 +131,7 @@ for (const view of views.querySelectorAll(".view")) {
     state.x -= (event.clientX - held.clientX) / state.zoom;
     state.y -= (event.clientY - held.clientY) / state.zoom;
     held = event;
+    state.whole = false;
     draw();
   });
   view.addEventListener("pointerup", () => { held = null; });
@@ -147,8 +149,8 @@ document.getElementById("side").addEventListener("change", (event) => {
   state.flipped = false;
   draw();
 });
-document.getElementById("whole").addEventListener("click", () => { state.zoom = 0; draw(); });
-document.getElementById("pixels").addEventListener("click", () => { state.zoom = 8; draw(); });
+document.getElementById("whole").addEventListener("click", () => { state.whole = true; draw(); });
+document.getElementById("pixels").addEventListener("click", () => { state.zoom = 8; state.whole = false; draw(); });
 document.addEventListener("keydown", (event) => {
   if (event.key === "f") flip();
   if (event.key === "+") zoomBy(2, views.querySelector(".view"));
