@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include "pipeline/decode_image.h"
@@ -53,6 +55,24 @@ TEST(SmaaEdges, OfColorSeeWhatLumaDoesNot) {
         6, 3, [](int x, int) { return glm::dvec3(0.2, 0.2, decodeSrgb(x < 3 ? 0.2 : 0.8)); });
     EXPECT_EQ(findEdges(image, {}, progress).at(3, 1), 0);
     EXPECT_EQ(findEdges(image, {.color_edges = true}, progress).at(3, 1), kLeftEdge);
+}
+
+TEST(SmaaEdges, OfColorAreMaskedByThePixelBeyondItself) {
+    Progress progress;
+    const auto isEdge = [&](std::array<int, 3> codes, bool color, bool columns) {
+        const ImageBuffer image =
+            test::makePicture(5, 5, [&](int x, int y) { return grey(codes[std::min(columns ? x : y, 2)]); });
+        const std::uint8_t edges = findEdges(image, {.color_edges = color}, progress).at(2, 2);
+        return edges == (columns ? kLeftEdge : kTopEdge);
+    };
+    for (const bool columns : {false, true}) {
+        // 62, twice the step, is more than the 60 of the step beyond, and less than the 91 of both.
+        EXPECT_TRUE(isEdge({0, 60, 91}, false, columns));
+        EXPECT_FALSE(isEdge({0, 60, 91}, true, columns));
+        // 58 is less than the 60 beyond, and more than the 31 that are left of it.
+        EXPECT_FALSE(isEdge({60, 0, 29}, false, columns));
+        EXPECT_TRUE(isEdge({60, 0, 29}, true, columns));
+    }
 }
 
 /// The same end of a line, pixel by pixel.
