@@ -7,6 +7,9 @@
 //          out from its eight neighbours.
 // Luma     0.299 R + 0.587 G + 0.114 B of the 8-bit sRGB picture, and the colours that are mixed are
 //          sRGB-encoded too: this filter sits behind the display's transfer curve.
+//          In float32: the shader reads luma from a channel of the picture, and one of 8 bits gives other
+//          results wherever a search ends at exactly a quarter of the contrast, as beside every step of two
+//          colours.
 #include <array>
 #include <cmath>
 #include <string>

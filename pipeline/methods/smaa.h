@@ -5,6 +5,9 @@
 //          a pattern, a line and what crosses its two ends; the pattern stands for a straight silhouette,
 //          whose area inside the pixel (smaa_textures) is how much of the neighbour across the edge is mixed
 //          in.
+// Agrees   with the published shader where its texture coordinates and 8-bit codes / 255 are rounded right:
+//          the same edges, weights within 1/255. Elsewhere a shader takes a search step more or less at the
+//          end of a long line, ties of contrast fall either way, and bilinear weights are cut to 1/256.
 #pragma once
 
 #include <cstdint>

@@ -21,15 +21,24 @@ float contrast(const glm::vec3& a, const glm::vec3& b) {
     return std::max(std::max(difference.r, difference.g), difference.b);
 }
 
+/// Contrast of the pixel beyond the next one: of lumas the edge there, between the two; of colours, as
+/// published, what tells it from the pixel itself.
+float contrastBeyond(float, float next, float beyond) {
+    return contrast(next, beyond);
+}
+float contrastBeyond(const glm::vec3& here, const glm::vec3&, const glm::vec3& beyond) {
+    return contrast(here, beyond);
+}
+
 /// The edges of pixel (x, y). Nearby are its own four, and the next ones to the left and above.
 template <class T>
 std::uint8_t edgesOf(const Texels<T>& values, int x, int y, float threshold) {
     const T here = values.at(x, y), left = values.at(x - 1, y), top = values.at(x, y - 1);
     const float to_left = contrast(here, left), to_top = contrast(here, top);
     if (to_left < threshold && to_top < threshold) return 0;
-    const float strongest =
-        std::max({to_left, to_top, contrast(here, values.at(x + 1, y)), contrast(here, values.at(x, y + 1)),
-                  contrast(left, values.at(x - 2, y)), contrast(top, values.at(x, y - 2))});
+    const float strongest = std::max(
+        {to_left, to_top, contrast(here, values.at(x + 1, y)), contrast(here, values.at(x, y + 1)),
+         contrastBeyond(here, left, values.at(x - 2, y)), contrastBeyond(here, top, values.at(x, y - 2))});
     const auto is_edge = [&](float delta) {
         return delta >= threshold && kLocalContrast * delta >= strongest;
     };

@@ -1,6 +1,8 @@
 // FXAA: hand-computed pixels, and what it makes of pictures.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
 #include "pipeline/srgb.h"
@@ -39,13 +41,34 @@ TEST(Fxaa, AStraightEdgeIsSoftenedByItsSubpixelPart) {
 }
 
 TEST(Fxaa, APixelBesideAStepMovesByHowNearTheStepIs) {
-    // White from row 17 on, from row 16 on right of column 32. At (36, 16), white, the side above is 4 and a
+    // White from row 17 on, from row 16 on right of column 32. At (36, 16), white, the side above is 3 and a
     // half pixels from the step on the left: read at 1, 2.5, 4.5 px, where it is past; on the right it runs
     // out after 20.5 px. It moves 1/2 - 4.5/25 = 0.32 px towards black.
     const ImageBuffer image = test::makePicture(
         96, 33, [](int x, int y) { return glm::dvec3(y > 16 || (y == 16 && x > 32) ? 1.0 : 0.0); });
     const ImageBuffer result = test::filtered(image, "fxaa:preset=12");
     EXPECT_NEAR(result.rgba[result.index(36, 16)].r, decodeSrgb(1.0 - 0.32), 1e-6);
+}
+
+TEST(Fxaa, EveryPresetFindsTheStepWhereItsSearchReadsAndGivesUpWhereItEnds) {
+    // The same picture at (34, 16), 1.5 px from the step: the first read at or past it, and the sum of all
+    // steps. A read on the step itself differs by a quarter of the contrast, which is just enough.
+    struct Preset {
+        int name;
+        double found, longest;
+    };
+    constexpr Preset kPresets[] = {
+        {10, 1.5, 16.5}, {11, 2.5, 17.5}, {12, 2.5, 20.5}, {13, 2.5, 22.5}, {14, 2.5, 24.5}, {15, 2.5, 26.5},
+        {20, 1.5, 11.5}, {21, 2.5, 12.5}, {22, 2.5, 14.5}, {23, 2.5, 16.5}, {24, 2.5, 19.5}, {25, 2.5, 22.5},
+        {26, 2.5, 24.5}, {27, 2.5, 26.5}, {28, 2.5, 28.5}, {29, 2.5, 30.5}, {39, 2.0, 26.5}};
+    const ImageBuffer image = test::makePicture(
+        96, 33, [](int x, int y) { return glm::dvec3(y > 16 || (y == 16 && x > 32) ? 1.0 : 0.0); });
+    for (const Preset& preset : kPresets) {
+        const std::string method = "fxaa:preset=" + std::to_string(preset.name);
+        const ImageBuffer result = test::filtered(image, method.c_str());
+        const double moved = 0.5 - preset.found / (preset.found + preset.longest);
+        EXPECT_NEAR(result.rgba[result.index(34, 16)].r, decodeSrgb(1.0 - moved), 1e-6) << method;
+    }
 }
 
 TEST(Fxaa, BringsAnEdgeOfSlopeAnEighthNearerToItsCoverage) {

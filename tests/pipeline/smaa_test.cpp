@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include "pipeline/decode_image.h"
@@ -55,6 +57,24 @@ TEST(SmaaEdges, OfColorSeeWhatLumaDoesNot) {
     EXPECT_EQ(findEdges(image, {.color_edges = true}, progress).at(3, 1), kLeftEdge);
 }
 
+TEST(SmaaEdges, OfColorAreMaskedByThePixelBeyondItself) {
+    Progress progress;
+    const auto isEdge = [&](std::array<int, 3> codes, bool color, bool columns) {
+        const ImageBuffer image =
+            test::makePicture(5, 5, [&](int x, int y) { return grey(codes[std::min(columns ? x : y, 2)]); });
+        const std::uint8_t edges = findEdges(image, {.color_edges = color}, progress).at(2, 2);
+        return edges == (columns ? kLeftEdge : kTopEdge);
+    };
+    for (const bool columns : {false, true}) {
+        // 62, twice the step, is more than the 60 of the step beyond, and less than the 91 of both.
+        EXPECT_TRUE(isEdge({0, 60, 91}, false, columns));
+        EXPECT_FALSE(isEdge({0, 60, 91}, true, columns));
+        // 58 is less than the 60 beyond, and more than the 31 that are left of it.
+        EXPECT_FALSE(isEdge({60, 0, 29}, false, columns));
+        EXPECT_TRUE(isEdge({60, 0, 29}, true, columns));
+    }
+}
+
 /// The same end of a line, pixel by pixel.
 int walk(const SmaaEdges& edges, int x, int y, int step) {
     const auto crossed = [&](int at) { return (edges.at(at, y) | edges.at(at, y - 1)) & kLeftEdge; };
@@ -89,6 +109,45 @@ TEST(SmaaWeights, DistancesAreThoseOfAWalkAlongTheLine) {
         }
     }
     EXPECT_GT(long_lines, 50);
+}
+
+/// A stair of `steps` steps with all four edges that may cross its ends; bits 2 and 1 of either crossing as
+/// in the table. It rises to the upper right, or falls to the lower right; its first top edge is at (8, 16).
+SmaaEdges stair(int steps, bool rises, int crossing_left, int crossing_right) {
+    SmaaEdges edges(32, 32);
+    const auto add = [&](int x, int y, std::uint8_t edge) { edges.texel(x, y) |= edge; };
+    const int up = rises ? -1 : 1, last_x = 8 + steps - 1, last_y = 16 + up * (steps - 1);
+    for (int i = 0; i < steps; ++i) add(8 + i, 16 + up * i, kTopEdge);
+    for (int i = 1; i < steps; ++i) add(8 + i, 16 + (rises ? -i : i - 1), kLeftEdge);
+    if (crossing_left & 1) add(8, rises ? 16 : 15, kLeftEdge);
+    if (crossing_left & 2) add(7, 16, kTopEdge);
+    if (crossing_right & 1) add(last_x + 1, rises ? last_y - 1 : last_y, kLeftEdge);
+    if (crossing_right & 2) add(last_x + 1, last_y, kTopEdge);
+    return edges;
+}
+
+TEST(SmaaWeights, AStairHasTheAreasOfItsDiagonal) {
+    Progress progress;
+    int weighed = 0;
+    for (const bool rises : {false, true})
+        for (int steps = 4; steps < 8; ++steps)
+            for (int crossings = 0; crossings < 16; ++crossings) {
+                const int left = crossings % kDiagonalCrossings, right = crossings / kDiagonalCrossings;
+                const SmaaWeights weights =
+                    weighEdges(stair(steps, rises, left, right), {.diagonal_steps = 9}, progress);
+                for (int i = 0; i < steps; ++i) {
+                    const glm::u8vec4 found = weights.at(8 + i, rises ? 16 - i : 16 + i);
+                    const SmaaArea area = smaaAreas().diagonalTexel(kDiagonalSize * left + i,
+                                                                    kDiagonalSize * right + steps - 1 - i);
+                    if (area == SmaaArea(0)) continue;
+                    // Under a falling diagonal lies what is over a rising one.
+                    EXPECT_EQ(found.x, rises ? area.x : area.y) << rises << steps << ' ' << crossings;
+                    EXPECT_EQ(found.y, rises ? area.y : area.x) << rises << steps << ' ' << crossings;
+                    EXPECT_EQ(found.z + found.w, 0);
+                    ++weighed;
+                }
+            }
+    EXPECT_GT(weighed, 600);
 }
 
 TEST(SmaaWeights, ColumnsAreRowsTransposed) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -201,6 +202,51 @@ TEST(SmaaSearch, SaysHowFarTheLineGoesOn) {
             ++reached[left];
         }
     for (const int count : reached) EXPECT_GT(count, 0);
+}
+
+/// CRC-32 of IEEE 802.3, bit by bit.
+std::uint32_t crc32(const std::vector<std::uint8_t>& bytes) {
+    std::uint32_t crc = ~0u;
+    for (const std::uint8_t byte : bytes) {
+        crc ^= byte;
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
+    }
+    return ~crc;
+}
+
+TEST(SmaaTextures, Crc32IsTheStandardOne) {
+    EXPECT_EQ(crc32({'1', '2', '3', '4', '5', '6', '7', '8', '9'}),
+              0xcbf43926u);  // its published check value
+}
+
+/// The authors publish both textures as bytes; these are the sums of theirs.
+TEST(SmaaTextures, AreasAreThePublishedBytes) {
+    // Its first 80 rows have no subpixel offset: two bytes a texel, orthogonal patterns left of diagonal
+    // ones.
+    std::vector<std::uint8_t> bytes;
+    for (int y = 0; y < SmaaAreas::kSide; ++y)
+        for (const bool diagonal : {false, true})
+            for (int x = 0; x < SmaaAreas::kSide; ++x) {
+                const SmaaArea area =
+                    diagonal ? smaaAreas().diagonalTexel(x, y) : smaaAreas().orthogonalTexel(x, y);
+                bytes.insert(bytes.end(), {area.x, area.y});
+            }
+    EXPECT_EQ(crc32(bytes), 0x5fbca771u);
+}
+
+TEST(SmaaTextures, SearchesAreThePublishedBytes) {
+    // 66 x 33 texels cut to 64 x 16: from the left 33 crossing sums for searches to the left, then those for
+    // searches to the right; the line's sum falls from 32 in the top row. A pixel counts 127.
+    const SmaaSearch search;
+    std::vector<std::uint8_t> bytes;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const int line = SmaaSearch::kSums - 1 - y, crossing = x % SmaaSearch::kSums;
+            const int length =
+                x < SmaaSearch::kSums ? search.left(crossing, line) : search.right(crossing, line);
+            bytes.push_back(static_cast<std::uint8_t>(127 * length));
+        }
+    EXPECT_EQ(crc32(bytes), 0x77423453u);
 }
 
 }  // namespace
