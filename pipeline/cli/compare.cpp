@@ -13,8 +13,8 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
-#include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/result_folder.h"
+#include "pipeline/cli/timing_options.h"
 #include "pipeline/cli/worker_flags.h"
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/comparison_tables.h"
@@ -35,14 +35,11 @@ using compare::Comparison;
 using compare::Contender;
 using compare::Row;
 
-constexpr const char* kUsualReference = "nsaa,device=cpu";
-constexpr int kMostRuns = 10000;
-
 struct CompareArguments {
     PictureArguments picture;
     FilterArguments filter;
     MethodArguments making;
-    std::string folder, reference = kUsualReference, runs = "5", command_line;
+    std::string folder, reference = kUsualReference, runs = kUsualRuns, command_line;
     std::vector<std::string> methods;
     std::optional<std::string> budget;
     bool resume = false, quiet = false;
@@ -59,13 +56,6 @@ FilterArguments filterFor(const CompareArguments& arguments, const std::string& 
     return takesFilter(parseMethod(method)) ? arguments.filter : FilterArguments{"box", {}, {}};
 }
 
-double readBudget(const std::optional<std::string>& text) {
-    if (!text) return std::numeric_limits<double>::infinity();
-    const double seconds = parseNumber("--budget", *text);
-    if (!(seconds > 0.0)) throw InputError("--budget", fmt::format("{} is not more than 0", *text));
-    return seconds;
-}
-
 /// Every problem of the command line, before anything runs.
 void checkMethods(const CompareArguments& arguments) {
     std::set<std::string> files;
@@ -80,32 +70,20 @@ void checkMethods(const CompareArguments& arguments) {
     findScene(arguments.picture.scene);
 }
 
-Row emptyRow(const CompareArguments& arguments, const std::string& method) {
-    const MethodSpec spec = parseMethod(method);
-    const Prefilter filter = readFilter(filterFor(arguments, method));
-    Row row;
-    row.method = method;
-    row.parameters = spec.parameters;
-    if (spec.number) row.parameters["number"] = fmt::format("{}", *spec.number);
-    row.filter = filter.name, row.radius = filter.radius;
-    if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
-        row.sigma = filter.sigma;
-    return row;
-}
-
 class Study {
   public:
     Study(const CompareArguments& arguments, const ResultFolder& folder, Progress& progress)
         : arguments_(arguments), folder_(folder), progress_(progress) {
-        options_.runs = static_cast<int>(parseInteger("--runs", arguments.runs, 1, kMostRuns));
-        options_.budget_seconds = readBudget(arguments.budget);
+        options_.runs = readRuns("--runs", arguments.runs);
+        if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
         comparison_ = {arguments.picture.scene, arguments.reference,
                        arguments.command_line,  version(),
                        compare::thisMachine(),  {}};
         for (const std::string& method : arguments.methods) {
-            comparison_.rows.push_back(emptyRow(arguments, method));
-            contenders_.push_back({method, flagsOf(method, filterFor(arguments, method))});
+            const FilterArguments filter = filterFor(arguments, method);
+            comparison_.rows.push_back(compare::rowOf(parseMethod(method), readFilter(filter)));
+            contenders_.push_back({method, flagsOf(method, filter)});
         }
     }
 
@@ -228,13 +206,7 @@ void runCompare(const CompareArguments& arguments) {
     try {
         Study(arguments, folder, progress).run();
     } catch (const compare::WorkerFailure& failure) {
-        const std::string what = failure.what();
-        const std::size_t colon = what.find(": ");
-        const bool split = colon != std::string::npos;
-        const std::string subject = split ? what.substr(0, colon) : "compare",
-                          why = split ? what.substr(colon + 2) : what;
-        if (failure.status == 2) throw InputError(subject, why);
-        throw FailureError(subject, why);
+        throwAsOurs(failure, "compare");
     }
     throwIfInterrupted();
     if (!arguments.quiet) fmt::print("{}\n", (folder / "report.html").string());

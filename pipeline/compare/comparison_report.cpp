@@ -62,7 +62,7 @@ std::string filterText(const Row& row) {
 
 std::string tableRow(const Row& row) {
     const Spread s = spreadOf(row.seconds);
-    std::string out = fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
+    std::string out = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
                                   escapedHtml(filterText(row)), escapedHtml(row.device));
     out += s.runs > 0
                ? cell(s.median, fmt::format("{:.4g}", s.median)) +
@@ -82,17 +82,12 @@ std::string tableRow(const Row& row) {
     out += numberCell(row.error ? row.error->psnr : std::nullopt, "{:.2f}");
     out += numberCell(error([](const Errors& e) { return e.ssim; }), "{:.6f}");
     out += numberCell(error([](const Errors& e) { return e.flip; }), "{:.5f}");
-    return out + numberCell(row.peak_mib, "{:.0f}") + "</tr>\n";
+    return out + numberCell(row.peak_mib, "{:.0f}");
 }
 
 std::string table(const Comparison& comparison) {
-    std::string out =
-        "<table><thead><tr><th>method</th><th>filter</th><th>device</th><th>seconds</th><th>spread</"
-        "th><th>set-up, "
-        "s</th><th>RMSE</th><th>edge RMSE</th><th>max</th><th>bias</th><th>PSNR, "
-        "dB</th><th>SSIM</th><th>FLIP</th>"
-        "<th>MiB</th></tr></thead><tbody>\n";
-    for (const Row& row : comparison.rows) out += tableRow(row);
+    std::string out = fmt::format("<table><thead><tr>{}</tr></thead><tbody>\n", reportHeads());
+    for (const Row& row : comparison.rows) out += fmt::format("<tr>{}</tr>\n", tableRow(row));
     return out + "</tbody></table>\n";
 }
 
@@ -180,8 +175,22 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +
            "</div></main>\n<script type='application/json' id='pictures'>" +
-           picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript +
+           picturesJson(c, folder, reference_png) + "</script><script>" + kViewScript + kSortScript +
            "</script></body></html>\n";
+}
+
+std::string reportHeads() {
+    return "<th>method</th><th>filter</th><th>device</th><th>seconds</th><th>spread</th><th>set-up, "
+           "s</th><th>RMSE</th><th>edge RMSE</th><th>max</th><th>bias</th><th>PSNR, "
+           "dB</th><th>SSIM</th><th>FLIP</th><th>MiB</th>";
+}
+
+std::string reportCells(const Row& row) {
+    return tableRow(row);
+}
+
+std::string reportDefinitions() {
+    return kDefinitions;
 }
 
 }  // namespace edgewise::compare

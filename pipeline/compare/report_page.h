@@ -31,8 +31,8 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 16px;margin:0}dt{f
 details{margin:6px 0}summary{cursor:pointer}
 )css";
 
-/// Of `rows`: [{name, picture, signed, absolute}], the first one the reference.
-inline constexpr const char* kReportScript = R"js(
+/// Shows `rows`: [{name, picture, signed, absolute}], the first one the reference.
+inline constexpr const char* kViewScript = R"js(
 "use strict";
 const rows = JSON.parse(document.getElementById("pictures").textContent);
 const views = document.querySelector(".views");
@@ -136,7 +136,11 @@ document.addEventListener("keydown", (event) => {
   if (event.key === "-") zoomBy(0.5, views.querySelector(".view"));
 });
 window.addEventListener("resize", draw);
+draw();
+)js";
 
+/// A click on a head sorts its table.
+inline constexpr const char* kSortScript = R"js(
 for (const header of document.querySelectorAll("th")) header.addEventListener("click", () => {
   const body = header.closest("table").tBodies[0], column = header.cellIndex;
   const up = header.getAttribute("aria-sort") !== "ascending";
@@ -151,7 +155,6 @@ for (const header of document.querySelectorAll("th")) header.addEventListener("c
     return up ? order : -order;
   }).forEach((row) => body.append(row));
 });
-draw();
 )js";
 
 }  // namespace edgewise::compare
