@@ -79,7 +79,7 @@ std::string resultsHtml(const SweepResults& results) {
                "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
                "content='width=device-width'><title>sweep: error against run time</title><link rel='icon' "
                "href='data:,'><style>{}{}</style></head><body><main><h1>Error against run time</h1>"
-               "<p>edgewise {}, {} jobs, {} machines: times of different machines stand apart</p>\n",
+               "<p>edgewise {}, jobs: {}, machines: {}; times of different machines stand apart</p>\n",
                compare::kReportStyle, kSweepStyle, version(), results.jobs.size(), parts.size()) +
            disagreementsHtml(results) + body + "<h2>Definitions</h2><div class='card'>" +
            compare::reportDefinitions() + "</div></main><script>" + compare::kSortScript +
