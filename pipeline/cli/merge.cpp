@@ -31,8 +31,10 @@ class Merge {
     void read(const std::string& folder) {
         std::error_code error;
         if (!fs::is_directory(folder, error)) return refuse(folder, "no such folder");
+        // a shard may have had nothing to do
+        if (!fs::is_directory(fs::path(folder) / "jobs", error))
+            return refuse(folder, "holds no jobs of a sweep");
         const auto files = sweep::recordFiles(folder);
-        if (files.empty()) return refuse(folder, "holds no jobs of a sweep");
         for (const fs::path& file : files) {
             throwIfInterrupted();
             try {

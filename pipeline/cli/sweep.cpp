@@ -149,6 +149,7 @@ class Sweep {
 
     /// Other shards may write here too: whoever ends last has seen all jobs.
     void summarize() const {
+        std::filesystem::create_directory(folder_ / "jobs");  // there even where this shard has none
         for (auto files = sweep::recordFiles(folder_.path());;) {
             std::vector<sweep::JobRecord> records;
             for (const auto& file : files) {

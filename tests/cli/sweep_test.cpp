@@ -271,6 +271,7 @@ TEST_F(Sweep, PathsAreRelativeToTheStudy) {
 TEST_F(Sweep, MergingGivesTheSameBytesInAnyOrder) {
     for (const char* shard : {"1/3", "2/3", "3/3"})
         ASSERT_EQ(sweep(std::string("part") + shard[0], {"--shard", shard}).status, 0);
+    ASSERT_EQ(sweep("none", {"--shard", "9/9"}).status, 0) << "more shards than jobs";
     const auto merge = [&](const Arguments& folders, const std::string& out) {
         Arguments arguments{"merge", "-o", out};
         arguments.insert(arguments.end(), folders.begin(), folders.end());
@@ -279,7 +280,7 @@ TEST_F(Sweep, MergingGivesTheSameBytesInAnyOrder) {
         EXPECT_EQ(run.err, "");
     };
     merge({"part1", "part2", "part3"}, "abc");
-    merge({"part3", "part1", "part2"}, "cab");
+    merge({"part3", "none", "part1", "part2"}, "cab");
     merge({"part1", "part2", "part1"}, "aba");
     merge({"part3", "aba", "part2"}, "nested");
     EXPECT_EQ(jobsIn("abc").size(), 4u);
