@@ -21,6 +21,8 @@ void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);
 void addScenes(CLI::App& program);
+void addFigure(CLI::App& program);
+void addFigures(CLI::App& program);
 void addStability(CLI::App& program, const std::string& command_line);  ///< with the oracle
 
 }  // namespace edgewise::cli

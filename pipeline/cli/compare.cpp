@@ -19,8 +19,10 @@
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/error_map.h"
+#include "pipeline/compare/judge_row.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/schedule.h"
+#include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/progress_bar.h"
@@ -101,7 +103,7 @@ class Study {
 
   private:
     struct Reference {
-        ImageBuffer picture;
+        compare::ReferencePicture made;
         std::string png;
     };
 
@@ -121,10 +123,10 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.picture = compare::pictureOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_);
         size_ = row.size;
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
-        writePicture(reference.picture, fileName("reference-" + filter.name), row.device);
+        writePicture(reference.made.picture, fileName("reference-" + filter.name), row.device);
         return reference;
     }
 
@@ -140,9 +142,10 @@ class Study {
     }
 
     void judge(Row& row, const ImageBuffer& picture) {
-        const ImageBuffer& truth = makeReference(filterFor(arguments_, row.method)).picture;
+        const compare::ReferencePicture& reference = makeReference(filterFor(arguments_, row.method)).made;
+        const ImageBuffer& truth = reference.picture;
         const std::string name = fileName(row.method);
-        row.error = judge::compareImages(picture, truth);
+        compare::judgeRow(row, picture, reference);
         writePicture(picture, name, row.device);
         row.exr = name + ".exr", row.png = name + ".png";
         row.signed_map = name + ".signed.png", row.absolute_map = name + ".absolute.png";
@@ -183,7 +186,7 @@ class Study {
         writeAtomically(folder_ / "results.csv", compare::comparisonCsv(comparison_));
         writeAtomically(folder_ / "table.tex", compare::comparisonLatex(comparison_));
         writeAtomically(folder_ / "pareto.svg", svg);
-        writeAtomically(folder_ / "pareto.pdf", compare::paretoPdf(svg));
+        writeAtomically(folder_ / "pareto.pdf", compare::svgPdf(svg, "pareto.pdf"));
         writeAtomically(folder_ / "report.html",
                         compare::comparisonHtml(comparison_, folder_.path(),
                                                 references_.at(keyOf(arguments_.filter)).png));

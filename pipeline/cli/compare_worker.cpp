@@ -15,6 +15,7 @@
 #include "pipeline/cli/statistics.h"
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/edge_classes.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/progress_bar.h"
 
@@ -45,6 +46,7 @@ class Worker {
         const std::string what = request.at("do");
         if (what == "open") return open();
         if (what == "run") return run();
+        if (what == "edges") return edges();
         compare::writeRaw(request.at("path").get<std::string>(), made_.image);
         return Json::object();
     }
@@ -67,6 +69,16 @@ class Worker {
         reply["seconds"] = seconds;
         reply["size"] = {picture_->film.width, picture_->film.height};
         return reply;
+    }
+
+    /// A digit a pixel.
+    Json edges() {
+        std::string digits;
+        for (const EdgeClass edge_class :
+             edgeClasses({picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_}))
+            digits += static_cast<char>('0' + static_cast<int>(edge_class));
+        throwIfInterrupted();
+        return {{"classes", digits}};
     }
 
     const WorkerArguments& arguments_;

@@ -41,6 +41,8 @@ void parseAndRun(int argc, char** argv) {
     addMethods(program);
     addFilters(program);
     addScenes(program);
+    addFigure(program);
+    addFigures(program);
 #ifdef EDGEWISE_HAS_ORACLE
     addStability(program, command_line);
 #endif

@@ -15,6 +15,7 @@
 #include "pipeline/cli/study.h"
 #include "pipeline/cli/timing_options.h"
 #include "pipeline/cli/worker_flags.h"
+#include "pipeline/compare/judge_row.h"
 #include "pipeline/error.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/sweep/sweep_results.h"
@@ -114,13 +115,13 @@ class Sweep {
         options.scratch = folder_.path();
         try {
             compare::Row reference;
-            const ImageBuffer truth = compare::pictureOf({study_.reference, flagsOf(job, study_.reference)},
-                                                         options.scratch, reference, progress);
+            const compare::ReferencePicture truth = compare::referenceOf(
+                {study_.reference, flagsOf(job, study_.reference)}, options.scratch, reference, progress);
             for (compare::Row& row : measurement.rows) row.size = reference.size;
             compare::runByTurns(
                 contenders, options, measurement.rows,
                 [&](std::size_t i, const ImageBuffer& picture) {
-                    measurement.rows[i].error = judge::compareImages(picture, truth);
+                    compare::judgeRow(measurement.rows[i], picture, truth);
                 },
                 [](std::size_t) {}, progress);
         } catch (const compare::WorkerFailure& failure) {

@@ -23,6 +23,12 @@ struct Spread {
 /// Of no values: zeros.
 Spread spreadOf(std::vector<double> values);
 
+/// Over the pixels whose support holds one or two edges, none parallel to an axis.
+struct FewEdgesError {
+    std::size_t pixels = 0;
+    double rmse = 0.0;
+};
+
 struct Row {
     std::string method;                             ///< as typed
     std::map<std::string, std::string> parameters;  ///< resolved
@@ -37,6 +43,8 @@ struct Row {
     std::map<std::string, std::vector<double>> stages;  ///< name -> seconds by run
     double peak_mib = 0.0;
     std::optional<judge::ErrorMetrics> error;  ///< none where no picture was made
+    std::optional<FewEdgesError> few_edges;    ///< with a reference that is nsaa
+    std::optional<double> bias_half_width;     ///< of error->bias's 95 % interval; none for small pictures
     std::vector<PlanEntry> plan;
     std::vector<std::string> notes;
     std::string exr, png;                  ///< file names in the folder; empty where no picture was made

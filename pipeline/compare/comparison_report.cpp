@@ -60,6 +60,12 @@ std::string filterText(const Row& row) {
                        row.sigma ? fmt::format(", s {:.3g}", *row.sigma) : "");
 }
 
+std::string biasText(const Row& row) {
+    if (!row.error) return "";
+    return fmt::format("{:.1e}", row.error->bias) +
+           (row.bias_half_width ? fmt::format(" &plusmn; {:.1e}", *row.bias_half_width) : "");
+}
+
 std::string tableRow(const Row& row) {
     const Spread s = spreadOf(row.seconds);
     std::string out = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
@@ -78,7 +84,7 @@ std::string tableRow(const Row& row) {
     out += numberCell(error([](const Errors& e) { return e.rmse; }), "{:.3e}");
     out += numberCell(row.error ? row.error->edge_rmse : std::nullopt, "{:.3e}");
     out += numberCell(error([](const Errors& e) { return e.max; }), "{:.3e}");
-    out += numberCell(error([](const Errors& e) { return e.bias; }), "{:.2e}");
+    out += cell(error([](const Errors& e) { return e.bias; }), biasText(row));
     out += numberCell(row.error ? row.error->psnr : std::nullopt, "{:.2f}");
     out += numberCell(error([](const Errors& e) { return e.ssim; }), "{:.6f}");
     out += numberCell(error([](const Errors& e) { return e.flip; }), "{:.5f}");
@@ -113,7 +119,8 @@ constexpr const char* kDefinitions =
     "count "
     "nowhere</dd><dt>RMSE, max, bias, PSNR</dt><dd>over linear R, G, B in double precision, alpha left out; "
     "bias is "
-    "the mean signed error, PSNR has peak 1 and is empty where there is no error</dd><dt>edge</dt><dd>over "
+    "the mean signed error with its 95 % confidence interval (batch means over blocks of 8x8 pixels), PSNR "
+    "has peak 1 and is empty where there is no error</dd><dt>edge</dt><dd>over "
     "the pixels "
     "whose support holds visible owners of different colours, by the reference</dd><dt>SSIM</dt><dd>Wang's, "
     "Gaussian "
@@ -128,8 +135,14 @@ constexpr const char* kDefinitions =
 std::string slopesText(const Comparison& c) {
     std::string out;
     for (const ErrorSlope& s : errorSlopes(c.rows))
-        out += fmt::format("<p>{}: RMSE falls like samples<sup>{:.3f}</sup>, {:.0f} to {:.0f} a pixel</p>",
-                           escapedHtml(s.family), s.slope, s.least, s.most);
+        out += fmt::format(
+            "<p>{}, {:.0f} to {:.0f} samples a pixel: RMSE falls like samples<sup>{:.3f}</sup>{}{}</p>",
+            escapedHtml(s.family), s.least, s.most, s.slope,
+            s.edge_slope ? fmt::format(", on the edge pixels {:.3f}", *s.edge_slope) : "",
+            s.few_edges_slope
+                ? fmt::format(", where a support holds one or two edges, none parallel to an axis, {:.3f}",
+                              *s.few_edges_slope)
+                : "");
     return out;
 }
 
@@ -175,7 +188,7 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +
            "</div></main>\n<script type='application/json' id='pictures'>" +
-           picturesJson(c, folder, reference_png) + "</script><script>" + kViewScript + kSortScript +
+           picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript + kSortScript +
            "</script></body></html>\n";
 }
 

@@ -61,6 +61,9 @@ Json rowJson(const Row& row) {
             {"setup_seconds", setup.runs == 0 ? Json() : Json(setup.median)},
             {"stages", stages},
             {"error", row.error ? judge::metricsJson(*row.error) : Json()},
+            {"bias_half_width", orNull(row.bias_half_width)},
+            {"few_edges",
+             row.few_edges ? Json{{"pixels", row.few_edges->pixels}, {"rmse", row.few_edges->rmse}} : Json()},
             {"peak_mib", row.peak_mib},
             {"exr", fileJson(row.exr)},
             {"png", fileJson(row.png)},
@@ -126,8 +129,12 @@ std::string comparisonJson(const Comparison& c) {
     for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
     json["slopes"] = Json::array();
     for (const ErrorSlope& s : errorSlopes(c.rows))
-        json["slopes"].push_back(
-            {{"family", s.family}, {"slope", s.slope}, {"samples", {s.least, s.most}}, {"rows", s.rows}});
+        json["slopes"].push_back({{"family", s.family},
+                                  {"slope", s.slope},
+                                  {"edge_slope", orNull(s.edge_slope)},
+                                  {"few_edges_slope", orNull(s.few_edges_slope)},
+                                  {"samples", {s.least, s.most}},
+                                  {"rows", s.rows}});
     return json.dump(2) + "\n";
 }
 
@@ -198,6 +205,9 @@ Row rowFromText(const std::string& text) {
             error.edge_rmse = optional(e.at("edge_rmse")), error.edge_psnr = optional(e.at("edge_psnr"));
             error.ssim = e.at("ssim"), error.flip = e.at("flip");
         }
+        row.bias_half_width = optional(json.at("bias_half_width"));
+        if (const Json& few = json.at("few_edges"); !few.is_null())
+            row.few_edges = {few.at("pixels"), few.at("rmse")};
         for (const Json& entry : json.at("plan"))
             row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
         row.notes = json.at("notes").get<std::vector<std::string>>();

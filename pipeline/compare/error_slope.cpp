@@ -17,7 +17,13 @@ double samplesOf(const Row& row) {
     return row.method.starts_with("ssaa") ? number * number : number;
 }
 
-ErrorSlope fitted(const std::string& family, const std::vector<LogPoint>& points) {
+using LogPoints = std::vector<LogPoint>;
+
+constexpr std::size_t kFewestRows = 3;
+
+/// None for too few points.
+std::optional<double> fitted(const LogPoints& points) {
+    if (points.size() < kFewestRows) return {};
     LogPoint mean{0.0, 0.0};
     for (const LogPoint& p : points) mean.samples += p.samples, mean.error += p.error;
     const auto n = static_cast<double>(points.size());
@@ -27,9 +33,22 @@ ErrorSlope fitted(const std::string& family, const std::vector<LogPoint>& points
         along += (p.samples - mean.samples) * (p.error - mean.error);
         square += (p.samples - mean.samples) * (p.samples - mean.samples);
     }
-    const auto [least, most] = std::ranges::minmax(points, {}, &LogPoint::samples);
-    return {family, along / square, std::exp(least.samples), std::exp(most.samples), points.size()};
+    return along / square;
 }
+
+/// A family's errors over all pixels, over the edge pixels, and over those with few edges.
+struct Family {
+    LogPoints all, edges, few_edges;
+
+    void add(const Row& row) {
+        const auto point = [&](LogPoints& points, const std::optional<double>& error) {
+            if (error && *error > 0.0) points.push_back({std::log(samplesOf(row)), std::log(*error)});
+        };
+        point(all, row.error->rmse);
+        point(edges, row.error->edge_rmse);
+        if (row.few_edges) point(few_edges, row.few_edges->rmse);
+    }
+};
 
 }  // namespace
 
@@ -42,13 +61,17 @@ std::string familyOf(const Row& row) {
 }
 
 std::vector<ErrorSlope> errorSlopes(const std::vector<Row>& rows) {
-    std::map<std::string, std::vector<LogPoint>> families;
+    std::map<std::string, Family> families;
     for (const Row& row : rows)
-        if (row.parameters.contains("number") && row.error && row.error->rmse > 0.0)
-            families[familyOf(row)].push_back({std::log(samplesOf(row)), std::log(row.error->rmse)});
+        if (row.parameters.contains("number") && row.error) families[familyOf(row)].add(row);
     std::vector<ErrorSlope> slopes;
-    for (const auto& [family, points] : families)
-        if (points.size() >= 3) slopes.push_back(fitted(family, points));
+    for (const auto& [name, family] : families) {
+        const std::optional<double> slope = fitted(family.all);
+        if (!slope) continue;
+        const auto [least, most] = std::ranges::minmax(family.all, {}, &LogPoint::samples);
+        slopes.push_back({name, *slope, fitted(family.edges), fitted(family.few_edges),
+                          std::exp(least.samples), std::exp(most.samples), family.all.size()});
+    }
     return slopes;
 }
 

@@ -1,6 +1,7 @@
 // How fast a sampler's error falls with its samples.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@ std::string familyOf(const Row& row);
 
 struct ErrorSlope {
     std::string family;
-    double slope = 0.0;              ///< d log RMSE / d log samples, least squares over the family's rows
-    double least = 0.0, most = 0.0;  ///< samples a pixel; of ssaa:K they are K^2
+    double slope = 0.0;  ///< d log RMSE / d log samples, least squares over the family's rows
+    std::optional<double> edge_slope, few_edges_slope;  ///< the same of edge RMSE, of Row::few_edges
+    double least = 0.0, most = 0.0;                     ///< samples a pixel; of ssaa:K they are K^2
     std::size_t rows = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/html_text.h"
+#include "pipeline/plot_colors.h"
 
 namespace edgewise::compare {
 namespace {
@@ -120,12 +121,9 @@ class Plot {
     Axis x_, y_;
 };
 
-constexpr const char* kColors[]{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a",
-                                "#17909c", "#d1498b", "#7a9a01", "#8b5a2b", "#5f7fd1", "#e07b39"};
-
 std::string seriesSvg(const Plot& plot, const std::string& name, const std::vector<Point>& points,
                       std::size_t index) {
-    const char* color = kColors[index % std::size(kColors)];
+    const char* color = kPlotColors[index % kPlotColors.size()];
     std::string path, dots;
     for (const Point& p : points) {
         const double x = plot.px(p.seconds), y = plot.py(p.error);

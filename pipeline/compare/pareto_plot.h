@@ -13,7 +13,4 @@ namespace edgewise::compare {
 /// left out.
 std::string paretoSvg(const Comparison& comparison);
 
-/// The same as PDF, of one page. Throws FailureError where it cannot be made.
-std::string paretoPdf(const std::string& svg);
-
 }  // namespace edgewise::compare

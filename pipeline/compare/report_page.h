@@ -31,13 +31,32 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 16px;margin:0}dt{f
 details{margin:6px 0}summary{cursor:pointer}
 )css";
 
-/// Shows `rows`: [{name, picture, signed, absolute}], the first one the reference.
-inline constexpr const char* kViewScript = R"js(
+/// A click on a header sorts its table, by data-value where cells have one.
+inline constexpr const char* kSortScript = R"js(
+"use strict";
+for (const header of document.querySelectorAll("th")) header.addEventListener("click", () => {
+  const body = header.closest("table").tBodies[0], column = header.cellIndex;
+  const up = header.getAttribute("aria-sort") !== "ascending";
+  for (const other of header.parentNode.cells) other.removeAttribute("aria-sort");
+  header.setAttribute("aria-sort", up ? "ascending" : "descending");
+  const key = (row) => {
+    const cell = row.cells[column], number = cell.dataset.value;
+    return number === undefined ? cell.textContent : number === "" ? Infinity : Number(number);
+  };
+  [...body.rows].sort((a, b) => {
+    const p = key(a), q = key(b), order = p < q ? -1 : p > q ? 1 : 0;
+    return up ? order : -order;
+  }).forEach((row) => body.append(row));
+});
+)js";
+
+/// Of `rows`: [{name, picture, signed, absolute}], the first one the reference.
+inline constexpr const char* kReportScript = R"js(
 "use strict";
 const rows = JSON.parse(document.getElementById("pictures").textContent);
 const views = document.querySelector(".views");
 const kinds = {picture: "picture", signed: "signed error", absolute: "absolute error"};
-const state = {left: 0, right: Math.min(2, rows.length - 1), kind: "picture", zoom: 0, x: 0, y: 0, flipped: false};
+const state = {left: 0, right: Math.min(2, rows.length - 1), kind: "picture", whole: true, zoom: 1, x: 0, y: 0, flipped: false};
 const loaded = new Map();
 
 function image(row, kind) {
@@ -59,7 +78,7 @@ function drawOne(view, row) {
   context.clearRect(0, 0, width, height);
   view.querySelector("b").textContent = rows[row].name + (state.kind === "picture" ? "" : ", " + kinds[state.kind]);
   if (!shown.complete || !shown.naturalWidth) return;
-  if (!state.zoom) fit(shown, view);
+  if (state.whole) fit(shown, view);
   const scale = state.zoom * ratio;
   context.imageSmoothingEnabled = state.zoom < 1;
   context.drawImage(shown, width / 2 - state.x * scale, height / 2 - state.y * scale,
@@ -89,6 +108,7 @@ function zoomBy(factor, view, event) {
   state.x += dx / state.zoom - dx / next;
   state.y += dy / state.zoom - dy / next;
   state.zoom = next;
+  state.whole = false;
   draw();
 }
 
@@ -111,6 +131,7 @@ for (const view of views.querySelectorAll(".view")) {
     state.x -= (event.clientX - held.clientX) / state.zoom;
     state.y -= (event.clientY - held.clientY) / state.zoom;
     held = event;
+    state.whole = false;
     draw();
   });
   view.addEventListener("pointerup", () => { held = null; });
@@ -128,33 +149,16 @@ document.getElementById("side").addEventListener("change", (event) => {
   state.flipped = false;
   draw();
 });
-document.getElementById("whole").addEventListener("click", () => { state.zoom = 0; draw(); });
-document.getElementById("pixels").addEventListener("click", () => { state.zoom = 8; draw(); });
+document.getElementById("whole").addEventListener("click", () => { state.whole = true; draw(); });
+document.getElementById("pixels").addEventListener("click", () => { state.zoom = 8; state.whole = false; draw(); });
 document.addEventListener("keydown", (event) => {
   if (event.key === "f") flip();
   if (event.key === "+") zoomBy(2, views.querySelector(".view"));
   if (event.key === "-") zoomBy(0.5, views.querySelector(".view"));
 });
 window.addEventListener("resize", draw);
-draw();
-)js";
 
-/// A click on a head sorts its table.
-inline constexpr const char* kSortScript = R"js(
-for (const header of document.querySelectorAll("th")) header.addEventListener("click", () => {
-  const body = header.closest("table").tBodies[0], column = header.cellIndex;
-  const up = header.getAttribute("aria-sort") !== "ascending";
-  for (const other of header.parentNode.cells) other.removeAttribute("aria-sort");
-  header.setAttribute("aria-sort", up ? "ascending" : "descending");
-  const key = (row) => {
-    const cell = row.cells[column], number = cell.dataset.value;
-    return number === undefined ? cell.textContent : number === "" ? Infinity : Number(number);
-  };
-  [...body.rows].sort((a, b) => {
-    const p = key(a), q = key(b), order = p < q ? -1 : p > q ? 1 : 0;
-    return up ? order : -order;
-  }).forEach((row) => body.append(row));
-});
+draw();
 )js";
 
 }  // namespace edgewise::compare

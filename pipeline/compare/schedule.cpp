@@ -158,14 +158,19 @@ void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions&
     for (const std::size_t i : open) turns[i].conclude(), changed(i);
 }
 
-ImageBuffer pictureOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
-                      Progress& progress) {
+ReferencePicture referenceOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
+                             Progress& progress) {
     WorkerProcess worker(contender.arguments);
     worker.ask({{"do", "open"}}, std::chrono::hours(24), progress);
     takeFacts(worker.ask({{"do", "run"}}, std::chrono::hours(24 * 365), progress), row);
     const ScratchFile file(scratch, 0);
     worker.ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24), progress);
-    return readRaw(file.path());
+    ReferencePicture reference{readRaw(file.path()), {}};
+    if (parseMethod(contender.method).name != "nsaa") return reference;
+    const Json reply = worker.ask({{"do", "edges"}}, std::chrono::hours(24), progress);
+    for (const char digit : reply.at("classes").get<std::string>())
+        reference.edges.push_back(static_cast<EdgeClass>(digit - '0'));
+    return reference;
 }
 
 }  // namespace edgewise::compare

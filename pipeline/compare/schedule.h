@@ -7,6 +7,7 @@
 
 #include "pipeline/compare/comparison.h"
 #include "pipeline/image_buffer.h"
+#include "pipeline/methods/edge_classes.h"
 
 namespace edgewise::compare {
 
@@ -33,8 +34,13 @@ void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions&
                 std::vector<Row>& rows, const TakePicture& take, const RowChanged& changed,
                 Progress& progress);
 
-/// One picture, not timed: for references.
-ImageBuffer pictureOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
-                      Progress& progress);
+struct ReferencePicture {
+    ImageBuffer picture;
+    std::vector<EdgeClass> edges;  ///< by pixel; empty but for nsaa
+};
+
+/// Not timed.
+ReferencePicture referenceOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
+                             Progress& progress);
 
 }  // namespace edgewise::compare

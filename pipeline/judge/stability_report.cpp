@@ -11,6 +11,7 @@
 #include "pipeline/html_text.h"
 #include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_plot.h"
+#include "pipeline/plot_colors.h"
 #include "pipeline/version.h"
 
 namespace edgewise::judge {
@@ -80,15 +81,12 @@ Json rowJson(const StabilityRow& r) {
     return json;
 }
 
-constexpr std::array kColors{"#1b6ca8", "#c8553d", "#3a7d44", "#7d4e9e", "#b08900", "#4a4a4a",
-                             "#17909c", "#d1498b", "#7a9a01", "#8b5a2b", "#5f7fd1", "#e07b39"};
-
 /// Every filter has one colour on the whole page.
 std::map<std::string, std::string> colorsOf(const Rows& rows) {
     std::map<std::string, std::string> out;
     for (const StabilityRow& row : rows) out.try_emplace(row.filter, "");
     std::size_t next = 0;
-    for (auto& [filter, color] : out) color = kColors[next++ % kColors.size()];
+    for (auto& [filter, color] : out) color = kPlotColors[next++ % kPlotColors.size()];
     return out;
 }
 

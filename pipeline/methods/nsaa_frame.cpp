@@ -52,16 +52,13 @@ NsaaFrame::NsaaFrame(const MethodInput& input)
 }
 
 MethodResult NsaaFrame::render(NsaaStages& stages) {
-    const PixelBox& crop = in.film.crop;
-    result.image = ImageBuffer(crop);
+    result.image = ImageBuffer(in.film.crop);
     aov.begin(result.image);
-    Bands bands = cutIntoBands(crop);
     std::size_t band_count = 0;
-    for (auto band = bands.next(); band; band = bands.next(), ++band_count) {
-        const std::uint64_t before = visibility_counts.pieces;
-        renderBand(stages, *band);
-        bands.made(visibility_counts.pieces - before);
-    }
+    forEachBand(stages, [&](const VisibleMap& map, const PixelBox& band) {
+        renderBand(stages, map, band);
+        ++band_count;
+    });
     aov.samplePoints(in.progress, result.image);
     if (aov.pointSamples()) watch.book("aov", result.stages);
     dump.finish();
@@ -70,6 +67,17 @@ MethodResult NsaaFrame::render(NsaaStages& stages) {
         result.notes.emplace_back("nsaa has no samples that hit: shaded at the closest point");
     fillCounts(band_count);
     return std::move(result);
+}
+
+void NsaaFrame::forEachBand(NsaaStages& stages,
+                            const std::function<void(const VisibleMap& map, const PixelBox& band)>& visit) {
+    Bands bands = cutIntoBands(in.film.crop);
+    for (auto band = bands.next(); band; band = bands.next()) {
+        checkCancelled(in.progress);
+        const std::uint64_t before = visibility_counts.pieces;
+        visit(visibleMapOf(stages, *band), *band);
+        bands.made(visibility_counts.pieces - before);
+    }
 }
 
 PixelReport NsaaFrame::report(NsaaStages& stages, int x, int y) {
@@ -99,9 +107,7 @@ VisibleMap NsaaFrame::visibleMapOf(NsaaStages& stages, const PixelBox& box) {
     return map;
 }
 
-void NsaaFrame::renderBand(NsaaStages& stages, const PixelBox& band) {
-    checkCancelled(in.progress);
-    const VisibleMap map = visibleMapOf(stages, band);
+void NsaaFrame::renderBand(NsaaStages& stages, const VisibleMap& map, const PixelBox& band) {
     const BandOwners owners(plan.classes, map, aov.weighs() && !plan.classes.representative.empty());
     dump.segments(map, band, offset());
     stages.render(*this, map, owners, band);

@@ -2,6 +2,7 @@
 // result.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,6 +59,9 @@ class NsaaFrame {
 
     MethodResult render(NsaaStages& stages);
     PixelReport report(NsaaStages& stages, int x, int y);
+    /// The visible map of each band from the top, and the band.
+    void forEachBand(NsaaStages& stages,
+                     const std::function<void(const VisibleMap& map, const PixelBox& band)>& visit);
 
     using Offsets = std::span<const glm::dvec2>;
     glm::dvec2 offset() const { return in.film.debug_offset_px; }
@@ -84,7 +88,7 @@ class NsaaFrame {
 
   private:
     VisibleMap visibleMapOf(NsaaStages& stages, const PixelBox& box);
-    void renderBand(NsaaStages& stages, const PixelBox& band);
+    void renderBand(NsaaStages& stages, const VisibleMap& map, const PixelBox& band);
     void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const;
     Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const;

@@ -78,13 +78,26 @@ EmbreeScene newScene(RTCDevice device, const ViewTriangles& triangles, RTCFilter
     return scene;
 }
 
+/// Pixels that fill a packet, as square as a power of two allows; one where a pixel fills it.
+glm::ivec2 blockOf(int pixels) {
+    glm::ivec2 block(1);
+    while (2 * block.x * block.y <= pixels) (block.x == block.y ? block.x : block.y) *= 2;
+    return block;
+}
+
+/// Downwards, below zero too.
+int floorTo(int value, int step) {
+    return value - (value % step + step) % step;
+}
+
 }  // namespace
 
-/// Traces the samples of pixels, one packet after the other.
+/// Traces samples a packet at a time. A packet is full, or a block of pixels that lies where it lies whatever
+/// the window is: which rays share one can decide what wins where depths are equal.
 template <int kWidth>
-class PixelTracer {
+class PacketTracer {
   public:
-    explicit PixelTracer(const RayScene& scene) : scene_(scene), view_(scene.triangles_.view) {
+    explicit PacketTracer(const RayScene& scene) : scene_(scene), view_(scene.triangles_.view) {
         for (int lane = 0; lane < kWidth; ++lane) {
             packet_.ray.tnear[lane] = packet_.ray.time[lane] = 0.0f;
             packet_.ray.org_x[lane] = packet_.ray.org_y[lane] = packet_.ray.org_z[lane] = 0.0f;
@@ -99,53 +112,52 @@ class PixelTracer {
         panes_context_.panes = panes_.data();
     }
 
-    void pixel(glm::dvec2 corner_px, std::span<const glm::dvec2> at_px, Owner* out, LayerStacks& stacks) {
-        for (std::size_t first = 0; first < at_px.size(); first += kWidth) {
-            const std::size_t count = std::min<std::size_t>(kWidth, at_px.size() - first);
-            aim(corner_px, at_px.subspan(first, count));
-            trace(scene_.opaque_.get());
-            for (std::size_t lane = 0; lane < count; ++lane) out[first + lane] = ownerOf(lane);
-            if (scene_.see_through_ != nullptr)
-                addPanes(corner_px, at_px.subspan(first, count), out + first, stacks);
-        }
-    }
-
-  private:
-    void aim(glm::dvec2 corner_px, std::span<const glm::dvec2> at_px) {
-        const auto count = static_cast<int>(at_px.size());
+    /// The sample's owner goes to `out`, once the packet is traced; null: it only fills its lane.
+    void add(glm::dvec2 corner_px, glm::dvec2 at_px, Owner* out, LayerStacks& stacks) {
+        const glm::dvec2 from_centre = corner_px - view_.centre_px;
         float* const x = view_.perspective ? packet_.ray.dir_x : packet_.ray.org_x;
         float* const y = view_.perspective ? packet_.ray.dir_y : packet_.ray.org_y;
-        const glm::dvec2 from_centre = corner_px - view_.centre_px;
-        for (int lane = 0; lane < count; ++lane) {
-            x[lane] = static_cast<float>((from_centre.x + at_px[lane].x) * view_.per_px);
-            y[lane] = static_cast<float>((from_centre.y + at_px[lane].y) * view_.per_px);
-        }
+        x[count_] = static_cast<float>((from_centre.x + at_px.x) * view_.per_px);
+        y[count_] = static_cast<float>((from_centre.y + at_px.y) * view_.per_px);
+        at_px_[count_] = corner_px + at_px;
+        out_[count_] = out;
+        if (++count_ == kWidth) flush(stacks);
+    }
+
+    void flush(LayerStacks& stacks) {
+        if (count_ == 0) return;
         for (int lane = 0; lane < kWidth; ++lane) {
-            valid_[lane] = lane < count ? -1 : 0;
+            valid_[lane] = lane < count_ ? -1 : 0;
             packet_.ray.tfar[lane] = std::numeric_limits<float>::infinity();
             packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet_.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
+        trace(scene_.opaque_.get());
+        for (int lane = 0; lane < count_; ++lane)
+            if (out_[lane] != nullptr) *out_[lane] = ownerOf(lane);
+        if (scene_.see_through_ != nullptr) addPanes(stacks);
+        count_ = 0;
     }
 
+  private:
     void trace(RTCScene scene) {
         if (scene != nullptr)
             RayPacket<kWidth>::intersect(valid_.data(), scene, &panes_context_.context, &packet_);
     }
 
-    bool hit(std::size_t lane) const { return packet_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID; }
+    bool hit(int lane) const { return packet_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID; }
 
-    const ScreenTriangle& opaqueAt(std::size_t lane) const {
+    const ScreenTriangle& opaqueAt(int lane) const {
         return scene_.screen_.triangles[scene_.triangles_.opaque.triangle[packet_.hit.primID[lane]]];
     }
 
-    Owner ownerOf(std::size_t lane) const { return hit(lane) ? opaqueAt(lane).owner : kBackground; }
+    Owner ownerOf(int lane) const { return hit(lane) ? opaqueAt(lane).owner : kBackground; }
 
     /// Again through what is see-through, as far as the opaque triangle and a little farther: which are in
     /// front the depth planes say.
-    void addPanes(glm::dvec2 corner_px, std::span<const glm::dvec2> at_px, Owner* out, LayerStacks& stacks) {
+    void addPanes(LayerStacks& stacks) {
         std::array<const ScreenTriangle*, kWidth> end{};
-        for (std::size_t lane = 0; lane < at_px.size(); ++lane) {
+        for (int lane = 0; lane < count_; ++lane) {
             panes_[lane].clear();
             if (!hit(lane)) continue;
             end[lane] = &opaqueAt(lane);
@@ -153,8 +165,9 @@ class PixelTracer {
             packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
         }
         trace(scene_.see_through_.get());
-        for (std::size_t lane = 0; lane < at_px.size(); ++lane)
-            if (!panes_[lane].empty()) out[lane] = stackOf(lane, corner_px + at_px[lane], end[lane], stacks);
+        for (int lane = 0; lane < count_; ++lane)
+            if (!panes_[lane].empty() && out_[lane] != nullptr)
+                *out_[lane] = stackOf(lane, at_px_[lane], end[lane], stacks);
     }
 
     struct Pane {
@@ -170,7 +183,7 @@ class PixelTracer {
     }
 
     /// A ray along the edge between two pieces of a triangle meets both: they are one layer.
-    Owner stackOf(std::size_t lane, glm::dvec2 p_px, const ScreenTriangle* end, LayerStacks& stacks) {
+    Owner stackOf(int lane, glm::dvec2 p_px, const ScreenTriangle* end, LayerStacks& stacks) {
         sorted_.clear();
         const Pane last = end != nullptr ? paneOf(*end, p_px) : Pane{-HUGE_VAL, kBackground};
         for (const std::uint32_t i : panes_[lane]) {
@@ -198,6 +211,9 @@ class PixelTracer {
     const RayScene& scene_;
     const RayView& view_;
     typename RayPacket<kWidth>::Hit packet_;
+    int count_ = 0;  ///< lanes that are filled
+    std::array<glm::dvec2, kWidth> at_px_;
+    std::array<Owner*, kWidth> out_;
     alignas(64) std::array<int, kWidth> valid_;
     PaneContext panes_context_;
     std::array<std::vector<std::uint32_t>, kWidth> panes_;
@@ -213,29 +229,40 @@ RayScene::RayScene(const ScreenScene& screen, const Film& film, bool perspective
       opaque_(newScene(device_.get(), triangles_.opaque, nullptr)),
       see_through_(newScene(device_.get(), triangles_.see_through, notePanes)) {}
 
-int RayScene::packetSize(int samples) const {
+int RayScene::packetSize() const {
     const auto native = [&](RTCDeviceProperty width) {
         return rtcGetDeviceProperty(device_.get(), width) != 0;
     };
-    if (samples >= 16 && native(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return 16;
-    if (samples >= 8 && native(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) return 8;
+    if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return 16;
+    if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) return 8;
     return 4;
 }
 
 template <int kWidth>
 void RayScene::traceWindow(const PixelBox& window, const PixelPatterns& patterns, SampledOwners& out) const {
-    const int across = (window.width() + kTilePx - 1) / kTilePx,
-              down = (window.height() + kTilePx - 1) / kTilePx;
-    tbb::parallel_for(0, across * down, [&](int tile) {
-        PixelTracer<kWidth> tracer(*this);
-        const int x0 = window.x0 + tile % across * kTilePx, y0 = window.y0 + tile / across * kTilePx;
-        for (int y = y0; y < std::min(y0 + kTilePx, window.y1); ++y)
-            for (int x = x0; x < std::min(x0 + kTilePx, window.x1); ++x) {
+    const glm::ivec2 block = blockOf(kWidth / patterns.samples);
+    const PixelBox tiles{floorTo(window.x0, kTilePx) / kTilePx, floorTo(window.y0, kTilePx) / kTilePx,
+                         (window.x1 + kTilePx - 1) / kTilePx, (window.y1 + kTilePx - 1) / kTilePx};
+    const auto traceBlock = [&](PacketTracer<kWidth>& tracer, int x0, int y0) {
+        for (int y = y0; y < y0 + block.y; ++y)
+            for (int x = x0; x < x0 + block.x; ++x) {
+                const bool inside = window.contains(x, y);
                 const std::size_t pixel =
                     static_cast<std::size_t>(y - window.y0) * window.width() + (x - window.x0);
-                tracer.pixel({x, y}, patterns.pattern(patterns.patternOf(x, y)),
-                             &out.owner[pixel * patterns.samples], out.stacks);
+                Owner* owner = inside ? &out.owner[pixel * patterns.samples] : nullptr;
+                for (const glm::dvec2& at : patterns.pattern(patterns.patternOf(x, y)))
+                    tracer.add({x, y}, at, inside ? owner++ : nullptr, out.stacks);
             }
+        tracer.flush(out.stacks);
+    };
+    tbb::parallel_for(0, tiles.width() * tiles.height(), [&](int tile) {
+        PacketTracer<kWidth> tracer(*this);
+        const int left = (tiles.x0 + tile % tiles.width()) * kTilePx,
+                  top = (tiles.y0 + tile / tiles.width()) * kTilePx;
+        const int x1 = std::min(left + kTilePx, window.x1), y1 = std::min(top + kTilePx, window.y1);
+        for (int y = std::max(top, floorTo(window.y0, block.y)); y < y1; y += block.y)
+            for (int x = std::max(left, floorTo(window.x0, block.x)); x < x1; x += block.x)
+                traceBlock(tracer, x, y);
     });
 }
 
@@ -243,7 +270,7 @@ SampledOwners RayScene::trace(const PixelBox& window, const PixelPatterns& patte
     SampledOwners out;
     out.owner.resize(static_cast<std::size_t>(window.width()) * window.height() * patterns.samples);
     try {
-        switch (packetSize(patterns.samples)) {
+        switch (packetSize()) {
             case 16:
                 traceWindow<16>(window, patterns, out);
                 break;

@@ -22,8 +22,8 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseEmbree>;
 /// What Embree decides is float32's: an edge may lie 2^-24 of the film's half side from its place, and where
 /// depths are equal or nearly so any of the triangles may win, the same one each time. The order of
 /// see-through layers among themselves and against what ends the view is the depth planes', in double, equal
-/// planes by index. Rays of one pixel share packets, and nothing else does: threads, tiles and crops do not
-/// show.
+/// planes by index. Packets are cut from pixels that lie where they lie whatever is asked for: threads, tiles
+/// and crops do not show.
 class RayScene {
   public:
     /// Builds the trees; refers to the scene. Throws FailureError where Embree fails.
@@ -34,12 +34,12 @@ class RayScene {
     /// kMostLayers layers.
     SampledOwners trace(const PixelBox& window, const PixelPatterns& patterns) const;
 
-    /// Rays of a packet: the widest that the processor has and a pixel fills.
-    int packetSize(int samples) const;
+    /// Rays of a packet: the widest that the processor has.
+    int packetSize() const;
 
   private:
     template <int kWidth>
-    friend class PixelTracer;
+    friend class PacketTracer;
     template <int kWidth>
     void traceWindow(const PixelBox& window, const PixelPatterns& patterns, SampledOwners& out) const;
 

@@ -17,7 +17,7 @@ class RayStages : public SampledStages {
           weights_(frame.in.filter, patterns_),
           scene_(frame.screen, frame.in.film, frame.in.camera.camera.perspective, frame.weights.margin_px),
           filter_(frame.in, frame.shading, frame.aov, patterns_, weights_) {
-        frame.result.counts["packet_rays"] = scene_.packetSize(samples);
+        frame.result.counts["packet_rays"] = scene_.packetSize();
         frame.result.setup_seconds = frame.watch.lap();
     }
 

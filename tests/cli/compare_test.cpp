@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -131,6 +132,28 @@ TEST(Compare, TellsHowFastASamplersErrorFalls) {
     EXPECT_NEAR(slopes[0].at("samples")[1], 256.0, 1e-9);
     EXPECT_LT(slopes[0].at("slope"), -0.5) << "no slower than independent samples";
     EXPECT_GT(slopes[0].at("slope"), -1.0) << "no faster than an integrand without edges";
+    EXPECT_TRUE(slopes[0].at("few_edges_slope").is_number());
+}
+
+/// 64 to 1024 samples on 64x64 pixels; the whole range on larger pictures gives -0.744 to -0.754.
+TEST(Compare, ScrambledNetsFallLikeTheory) {
+    const TemporaryFolder folder;
+    if (runProgram({"methods"}, folder.path()).out.find("\nrt:") == std::string::npos)
+        GTEST_SKIP() << "built without rt";
+    Arguments arguments{"compare",  "random-2k", "-o",     "out", "--size",   "96x96",
+                        "--device", "cpu",       "--runs", "1",   "--filter", "box"};
+    for (const char* method : {"rt:64", "rt:128", "rt:256", "rt:512", "rt:1024"})
+        arguments.insert(arguments.end(), {"--method", method});
+    const ProgramRun run = runProgram(arguments, folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = resultsOf(folder);
+    EXPECT_NEAR(results.at("slopes")[0].at("few_edges_slope"), -0.75, 0.05);
+    const json row = rowOf(results, "rt:1024");
+    EXPECT_GT(row.at("few_edges").at("pixels"), 1000);
+    // 95 % is 1.96 deviations; 4 deviations happen once in 16,000 seeds.
+    const double half_width = row.at("bias_half_width");
+    EXPECT_LT(std::fabs(row.at("error").at("bias").get<double>()), half_width / 1.96 * 4.0);
+    EXPECT_LT(half_width, 1e-4);
 }
 
 TEST(Compare, AMissingSceneIsNamed) {

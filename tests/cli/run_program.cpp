@@ -23,39 +23,48 @@ void redirect(int descriptor, const std::filesystem::path& path, int flags) {
     if (file < 0 || dup2(file, descriptor) < 0) _exit(kCannotStart);
 }
 
-[[noreturn]] void becomeProgram(const Arguments& arguments, const std::filesystem::path& folder,
-                                const TemporaryFolder& streams) {
+[[noreturn]] void becomeProgram(std::string program, const Arguments& arguments,
+                                const std::filesystem::path& folder, const TemporaryFolder& streams) {
     redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
     redirect(STDOUT_FILENO, streams / "out", O_WRONLY | O_CREAT);
     redirect(STDERR_FILENO, streams / "err", O_WRONLY | O_CREAT);
-    std::string program = EDGEWISE_PROGRAM;
     std::vector<char*> argv{program.data()};
     std::vector<std::string> copies = arguments;
     for (std::string& argument : copies) argv.push_back(argument.data());
     argv.push_back(nullptr);
-    if (chdir(folder.c_str()) == 0) execv(program.c_str(), argv.data());
+    if (chdir(folder.c_str()) == 0) execvp(program.c_str(), argv.data());
     _exit(kCannotStart);
 }
 
-}  // namespace
-
-ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder,
-                      int interrupt_after_ms) {
+ProgramRun run(const std::string& program, const Arguments& arguments, const std::filesystem::path& folder,
+               int interrupt_after_ms) {
     const TemporaryFolder streams;
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork");
-    if (child == 0) becomeProgram(arguments, folder, streams);
+    if (child == 0) becomeProgram(program, arguments, folder, streams);
     if (interrupt_after_ms >= 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
         kill(child, SIGINT);
     }
     int status = 0;
     waitpid(child, &status, 0);
-    ProgramRun run;
-    run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    run.out = readFile(streams / "out");
-    run.err = readFile(streams / "err");
-    return run;
+    ProgramRun result;
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.out = readFile(streams / "out");
+    result.err = readFile(streams / "err");
+    return result;
+}
+
+}  // namespace
+
+ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder,
+                      int interrupt_after_ms) {
+    return run(EDGEWISE_PROGRAM, arguments, folder, interrupt_after_ms);
+}
+
+ProgramRun runOther(const std::string& program, const Arguments& arguments,
+                    const std::filesystem::path& folder) {
+    return run(program, arguments, folder, -1);
 }
 
 TemporaryFolder::TemporaryFolder() {

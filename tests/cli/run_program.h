@@ -19,6 +19,10 @@ using Arguments = std::vector<std::string>;
 ProgramRun runProgram(const Arguments& arguments, const std::filesystem::path& folder = ".",
                       int interrupt_after_ms = -1);
 
+/// Another program, found by PATH; status 127 where there is none.
+ProgramRun runOther(const std::string& program, const Arguments& arguments,
+                    const std::filesystem::path& folder);
+
 /// A fresh folder that goes away with this value.
 class TemporaryFolder {
   public:

@@ -1,9 +1,10 @@
+#include "pipeline/compare/svg_pdf.h"
+
 #include <cairo-pdf.h>
 #include <librsvg/rsvg.h>
 
 #include <memory>
 
-#include "pipeline/compare/pareto_plot.h"
 #include "pipeline/error.h"
 
 namespace edgewise::compare {
@@ -21,10 +22,6 @@ struct Releaser {
 template <class T, auto Release>
 using Owned = std::unique_ptr<T, Releaser<Release>>;
 
-[[noreturn]] void fail(const char* why) {
-    throw FailureError("pareto.pdf", why);
-}
-
 cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
@@ -32,7 +29,8 @@ cairo_status_t append(void* text, const unsigned char* data, unsigned int length
 
 }  // namespace
 
-std::string paretoPdf(const std::string& svg) {
+std::string svgPdf(const std::string& svg, const std::string& name) {
+    const auto fail = [&](const char* why) { throw FailureError(name, why); };
     const Owned<RsvgHandle, g_object_unref> handle(
         rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
     if (!handle) fail("its SVG cannot be read");

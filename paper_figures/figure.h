@@ -1,0 +1,35 @@
+// A figure or table: what it is called, and the code that makes its files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/progress.h"
+
+namespace edgewise::figures {
+
+struct FigureInput {
+    bool quick = false;  ///< a small version in seconds
+    Progress& progress;
+};
+
+struct FigureFile {
+    std::string name;  ///< of a file in the figure's folder; the first one is the page that shows the figure
+    std::string bytes;
+};
+
+struct Figure {
+    std::string name;    ///< as typed
+    std::string source;  ///< which paper's, or "ours"
+    std::string what;    ///< one line
+    /// Everything in memory: what fails leaves nothing half-written. The command that shows it again is
+    /// "edgewise figure NAME -o DIR". Throws Interrupted when cancelled, FailureError and InputError.
+    std::vector<FigureFile> (*make)(const FigureInput& input);
+};
+
+/// In the order in which they are listed; a new figure adds one line in registry.cpp.
+const std::vector<Figure>& figureRegistry();
+
+std::vector<FigureFile> makeFilterStudy(const FigureInput& input);
+
+}  // namespace edgewise::figures

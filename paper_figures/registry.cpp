@@ -1,0 +1,13 @@
+#include "paper_figures/figure.h"
+
+namespace edgewise::figures {
+
+const std::vector<Figure>& figureRegistry() {
+    static const std::vector<Figure> figures{
+        {"filter-study", "NSAA, Figure 6, continued",
+         "frequency response, ringing, blur and aliasing of every filter", makeFilterStudy},
+    };
+    return figures;
+}
+
+}  // namespace edgewise::figures

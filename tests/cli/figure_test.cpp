@@ -1,0 +1,64 @@
+// The papers' figures as a user makes them.
+#include <gtest/gtest.h>
+
+#include "pipeline/read_image.h"
+#include "tests/cli/run_program.h"
+
+namespace edgewise::test {
+namespace {
+
+TEST(FigureCommand, FilterStudyWritesItsFiles) {
+    const TemporaryFolder folder;
+    const ProgramRun done = runProgram({"figure", "filter-study", "--quick", "-o", "out"}, folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    EXPECT_EQ(lines(done.out), std::vector<std::string>{"out/index.html"});
+    const auto own = folder.path() / "out" / "filter-study";
+    for (const char* name : {"report.html", "results.json", "results.csv", "response.csv", "step.csv",
+                             "table.tex", "response-axis.svg", "response-axis.pdf", "response-diagonal.svg",
+                             "step.svg", "step.pdf", "trade-off.svg", "trade-off.pdf"})
+        EXPECT_FALSE(readFile(own / name).empty()) << name;
+    for (const char* pattern : {"zone-plate", "log-grid", "torus-sequence"})
+        for (const char* name : {"_gaussian_R2.png", "_poly_1_-3_3_-1_R2_aliased.png", "_csaa_32.png"})
+            EXPECT_EQ(readImage(own / (std::string(pattern) + name)).box.width(), 64) << pattern << name;
+    // twelve filters of one radius, a line each and a header
+    EXPECT_EQ(lines(readFile(own / "results.csv")).size(), 13u);
+    EXPECT_NE(readFile(folder.path() / "out" / "index.html").find("filter-study/report.html"),
+              std::string::npos);
+    const std::string page = readFile(own / "report.html");
+    for (const char* outside : {"http://", "https://", "src='/", "url(//"}) {
+        const std::string namespace_free =
+            page.substr(0, page.find("<svg")) + page.substr(page.rfind("</svg>"));
+        EXPECT_EQ(namespace_free.find(outside), std::string::npos) << outside;  // works offline
+    }
+}
+
+TEST(FigureCommand, ListsItsNames) {
+    const ProgramRun run = runProgram({"figures"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_NE(run.out.find("filter-study: "), std::string::npos);
+}
+
+TEST(FigureCommand, WrongOnesAreOneLineAndLeaveNothing) {
+    const TemporaryFolder folder;
+    writeFile(folder / "file", "x");
+    for (const Arguments& wrong :
+         {Arguments{"figure", "nope", "-o", "out"}, Arguments{"figure", "filter-study", "nope", "-o", "out"},
+          Arguments{"figure", "filter-study"}, Arguments{"figure", "-o", "out"},
+          Arguments{"figure", "filter-study", "--quick", "-o", "file/x"}}) {
+        const ProgramRun run = runProgram(wrong, folder.path());
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_EQ(lines(run.err).size(), 1u) << run.err;
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});
+    }
+}
+
+TEST(FigureCommand, CtrlCEndsWith130AndLeavesNothing) {
+    const TemporaryFolder folder;
+    const ProgramRun run = runProgram({"figure", "all", "-o", "out"}, folder.path(), 1000);
+    EXPECT_EQ(run.status, 130) << run.err;
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace edgewise::test
