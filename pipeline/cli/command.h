@@ -12,6 +12,8 @@ namespace edgewise::cli {
 void addRender(CLI::App& program, const std::string& command_line);
 void addCompare(CLI::App& program, const std::string& command_line);
 void addCompareWorker(CLI::App& program);  ///< what compare runs, one a method; not for users
+void addSweep(CLI::App& program);
+void addMerge(CLI::App& program);
 void addWeights(CLI::App& program);
 void addMetrics(CLI::App& program);
 void addPost(CLI::App& program, const std::string& command_line);

@@ -13,14 +13,14 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
-#include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/result_folder.h"
+#include "pipeline/cli/timing_options.h"
 #include "pipeline/cli/worker_flags.h"
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/error_map.h"
+#include "pipeline/compare/judge_row.h"
 #include "pipeline/compare/pareto_plot.h"
-#include "pipeline/compare/sampler_statistics.h"
 #include "pipeline/compare/schedule.h"
 #include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
@@ -37,14 +37,11 @@ using compare::Comparison;
 using compare::Contender;
 using compare::Row;
 
-constexpr const char* kUsualReference = "nsaa,device=cpu";
-constexpr int kMostRuns = 10000;
-
 struct CompareArguments {
     PictureArguments picture;
     FilterArguments filter;
     MethodArguments making;
-    std::string folder, reference = kUsualReference, runs = "5", command_line;
+    std::string folder, reference = kUsualReference, runs = kUsualRuns, command_line;
     std::vector<std::string> methods;
     std::optional<std::string> budget;
     bool resume = false, quiet = false;
@@ -61,13 +58,6 @@ FilterArguments filterFor(const CompareArguments& arguments, const std::string& 
     return takesFilter(parseMethod(method)) ? arguments.filter : FilterArguments{"box", {}, {}};
 }
 
-double readBudget(const std::optional<std::string>& text) {
-    if (!text) return std::numeric_limits<double>::infinity();
-    const double seconds = parseNumber("--budget", *text);
-    if (!(seconds > 0.0)) throw InputError("--budget", fmt::format("{} is not more than 0", *text));
-    return seconds;
-}
-
 /// Every problem of the command line, before anything runs.
 void checkMethods(const CompareArguments& arguments) {
     std::set<std::string> files;
@@ -82,32 +72,20 @@ void checkMethods(const CompareArguments& arguments) {
     findScene(arguments.picture.scene);
 }
 
-Row emptyRow(const CompareArguments& arguments, const std::string& method) {
-    const MethodSpec spec = parseMethod(method);
-    const Prefilter filter = readFilter(filterFor(arguments, method));
-    Row row;
-    row.method = method;
-    row.parameters = spec.parameters;
-    if (spec.number) row.parameters["number"] = fmt::format("{}", *spec.number);
-    row.filter = filter.name, row.radius = filter.radius;
-    if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
-        row.sigma = filter.sigma;
-    return row;
-}
-
 class Study {
   public:
     Study(const CompareArguments& arguments, const ResultFolder& folder, Progress& progress)
         : arguments_(arguments), folder_(folder), progress_(progress) {
-        options_.runs = static_cast<int>(parseInteger("--runs", arguments.runs, 1, kMostRuns));
-        options_.budget_seconds = readBudget(arguments.budget);
+        options_.runs = readRuns("--runs", arguments.runs);
+        if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
         comparison_ = {arguments.picture.scene, arguments.reference,
                        arguments.command_line,  version(),
                        compare::thisMachine(),  {}};
         for (const std::string& method : arguments.methods) {
-            comparison_.rows.push_back(emptyRow(arguments, method));
-            contenders_.push_back({method, flagsOf(method, filterFor(arguments, method))});
+            const FilterArguments filter = filterFor(arguments, method);
+            comparison_.rows.push_back(compare::rowOf(parseMethod(method), readFilter(filter)));
+            contenders_.push_back({method, flagsOf(method, filter)});
         }
     }
 
@@ -164,12 +142,10 @@ class Study {
     }
 
     void judge(Row& row, const ImageBuffer& picture) {
-        const auto& [truth, edges] = makeReference(filterFor(arguments_, row.method)).made;
+        const compare::ReferencePicture& reference = makeReference(filterFor(arguments_, row.method)).made;
+        const ImageBuffer& truth = reference.picture;
         const std::string name = fileName(row.method);
-        row.error = judge::compareImages(picture, truth);
-        const std::vector<glm::dvec3> errors = judge::signedErrors(picture, truth);
-        row.bias_half_width = compare::biasHalfWidth(errors, truth.box.width());
-        if (!edges.empty()) row.few_edges = compare::fewEdgesError(errors, edges);
+        compare::judgeRow(row, picture, reference);
         writePicture(picture, name, row.device);
         row.exr = name + ".exr", row.png = name + ".png";
         row.signed_map = name + ".signed.png", row.absolute_map = name + ".absolute.png";
@@ -233,13 +209,7 @@ void runCompare(const CompareArguments& arguments) {
     try {
         Study(arguments, folder, progress).run();
     } catch (const compare::WorkerFailure& failure) {
-        const std::string what = failure.what();
-        const std::size_t colon = what.find(": ");
-        const bool split = colon != std::string::npos;
-        const std::string subject = split ? what.substr(0, colon) : "compare",
-                          why = split ? what.substr(colon + 2) : what;
-        if (failure.status == 2) throw InputError(subject, why);
-        throw FailureError(subject, why);
+        throwAsOurs(failure, "compare");
     }
     throwIfInterrupted();
     if (!arguments.quiet) fmt::print("{}\n", (folder / "report.html").string());

@@ -32,6 +32,8 @@ void parseAndRun(int argc, char** argv) {
     addRender(program, command_line);
     addCompare(program, command_line);
     addCompareWorker(program);
+    addSweep(program);
+    addMerge(program);
     addWeights(program);
     addMetrics(program);
     addPost(program, command_line);

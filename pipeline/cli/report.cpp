@@ -58,6 +58,9 @@ int runAndReport(const std::function<void()>& work) {
         return 0;
     } catch (const CLI::ParseError& error) {
         return fail(fmt::format("command line: {}", error.what()), kWrongInput);
+    } catch (const ProblemList& problems) {
+        for (const std::string& message : problems.messages) printError(message);
+        return problems.status;
     } catch (const InputError& error) {
         return fail(error.what(), kWrongInput);
     } catch (const Interrupted&) {

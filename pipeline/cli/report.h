@@ -1,10 +1,23 @@
 // How the program speaks: errors and warnings as single lines on standard error, exit statuses.
 #pragma once
 
+#include <exception>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace edgewise::cli {
+
+/// What is wrong, all of it: a line each, and the exit status of the contract.
+struct ProblemList : std::exception {
+    ProblemList(std::vector<std::string> lines, int exit_status)
+        : messages(std::move(lines)), status(exit_status) {}
+    const char* what() const noexcept override { return messages.empty() ? "" : messages.front().c_str(); }
+    std::vector<std::string> messages;
+    int status;
+};
 
 /// "edgewise: error: MESSAGE", in one line whatever the message holds.
 void printError(std::string_view message);

@@ -1,8 +1,11 @@
 #include "pipeline/compare/comparison.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <climits>
 #include <fstream>
 #include <thread>
 
@@ -28,8 +31,21 @@ Spread spreadOf(std::vector<double> values) {
     return {median, values.front(), values.back(), n};
 }
 
+Row rowOf(const MethodSpec& method, const Prefilter& filter) {
+    Row row;
+    row.method = method.typed;
+    row.parameters = method.parameters;
+    if (method.number) row.parameters["number"] = fmt::format("{}", *method.number);
+    row.filter = filter.name, row.radius = filter.radius;
+    if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
+        row.sigma = filter.sigma;
+    return row;
+}
+
 Machine thisMachine() {
     Machine machine;
+    std::array<char, HOST_NAME_MAX + 1> name{};
+    if (gethostname(name.data(), name.size() - 1) == 0) machine.host = name.data();
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);)
         if (line.starts_with("model name")) {

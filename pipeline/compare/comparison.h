@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analytic/prefilter.h"
 #include "pipeline/judge/metrics.h"
 #include "pipeline/methods/method.h"
 
@@ -50,9 +51,12 @@ struct Row {
     std::string signed_map, absolute_map;  ///< likewise
 };
 
-/// Of the process's machine: processor, cores, memory.
+/// A row before its first run: the method, its parameters and its filter.
+Row rowOf(const MethodSpec& method, const Prefilter& filter);
+
+/// Of the process's machine: name, processor, cores, memory.
 struct Machine {
-    std::string processor;
+    std::string host, processor;
     unsigned cores = 0;
     double memory_mib = 0.0;
 };

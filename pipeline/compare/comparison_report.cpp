@@ -68,7 +68,7 @@ std::string biasText(const Row& row) {
 
 std::string tableRow(const Row& row) {
     const Spread s = spreadOf(row.seconds);
-    std::string out = fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
+    std::string out = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
                                   escapedHtml(filterText(row)), escapedHtml(row.device));
     out += s.runs > 0
                ? cell(s.median, fmt::format("{:.4g}", s.median)) +
@@ -88,17 +88,12 @@ std::string tableRow(const Row& row) {
     out += numberCell(row.error ? row.error->psnr : std::nullopt, "{:.2f}");
     out += numberCell(error([](const Errors& e) { return e.ssim; }), "{:.6f}");
     out += numberCell(error([](const Errors& e) { return e.flip; }), "{:.5f}");
-    return out + numberCell(row.peak_mib, "{:.0f}") + "</tr>\n";
+    return out + numberCell(row.peak_mib, "{:.0f}");
 }
 
 std::string table(const Comparison& comparison) {
-    std::string out =
-        "<table><thead><tr><th>method</th><th>filter</th><th>device</th><th>seconds</th><th>spread</"
-        "th><th>set-up, "
-        "s</th><th>RMSE</th><th>edge RMSE</th><th>max</th><th>bias</th><th>PSNR, "
-        "dB</th><th>SSIM</th><th>FLIP</th>"
-        "<th>MiB</th></tr></thead><tbody>\n";
-    for (const Row& row : comparison.rows) out += tableRow(row);
+    std::string out = fmt::format("<table><thead><tr>{}</tr></thead><tbody>\n", reportHeads());
+    for (const Row& row : comparison.rows) out += fmt::format("<tr>{}</tr>\n", tableRow(row));
     return out + "</tbody></table>\n";
 }
 
@@ -195,6 +190,20 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
            "</div></main>\n<script type='application/json' id='pictures'>" +
            picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript + kSortScript +
            "</script></body></html>\n";
+}
+
+std::string reportHeads() {
+    return "<th>method</th><th>filter</th><th>device</th><th>seconds</th><th>spread</th><th>set-up, "
+           "s</th><th>RMSE</th><th>edge RMSE</th><th>max</th><th>bias</th><th>PSNR, "
+           "dB</th><th>SSIM</th><th>FLIP</th><th>MiB</th>";
+}
+
+std::string reportCells(const Row& row) {
+    return tableRow(row);
+}
+
+std::string reportDefinitions() {
+    return kDefinitions;
 }
 
 }  // namespace edgewise::compare

@@ -14,4 +14,9 @@ namespace edgewise::compare {
 std::string comparisonHtml(const Comparison& comparison, const std::filesystem::path& folder,
                            const std::string& reference_png);
 
+/// What other pages show of a row: the <th>s, the <td>s in their order, and a <dl> of what they mean.
+std::string reportHeads();
+std::string reportCells(const Row& row);
+std::string reportDefinitions();
+
 }  // namespace edgewise::compare

@@ -37,6 +37,15 @@ Json fileJson(const std::string& name) {
     return name.empty() ? Json() : Json(name);
 }
 
+}  // namespace
+
+Json machineJson(const Machine& machine) {
+    return {{"host", machine.host},
+            {"processor", machine.processor},
+            {"cores", machine.cores},
+            {"memory_mib", machine.memory_mib}};
+}
+
 Json rowJson(const Row& row) {
     Json stages = Json::object();
     for (const auto& [name, seconds] : row.stages) stages[name] = spreadOf(seconds).median;
@@ -63,15 +72,20 @@ Json rowJson(const Row& row) {
 }
 
 /// As CSV has text: in quotes where it needs them.
-std::string field(const std::string& text) {
+std::string csvText(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + "\"";
 }
+
+namespace {
+
 std::string number(const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "";
 }
+
+}  // namespace
 
 std::string latexText(const std::string& text) {
     std::string out;
@@ -82,6 +96,8 @@ std::string latexText(const std::string& text) {
     return out;
 }
 
+namespace {
+
 /// 1.2e-3 as a power of ten.
 std::string latexNumber(double value) {
     if (value == 0.0) return "0";
@@ -90,29 +106,26 @@ std::string latexNumber(double value) {
     return fmt::format("${}\\cdot 10^{{{}}}$", text.substr(0, e), std::stoi(text.substr(e + 1)));
 }
 
-std::string latexRow(const Row& row) {
+}  // namespace
+
+std::string latexColumns() {
+    return "method & seconds & RMSE & edge RMSE & PSNR & SSIM & FLIP & MiB";
+}
+
+std::string latexFields(const Row& row) {
     const Spread seconds = spreadOf(row.seconds);
     std::string out = latexText(row.method) + " & ";
     out += seconds.runs == 0 ? nameOf(row.status) : fmt::format("{:.4g}", seconds.median);
-    if (!row.error) return out + " & & & & & &" + fmt::format(" {:.0f} \\\\\n", row.peak_mib);
+    if (!row.error) return out + fmt::format(" & & & & & & {:.0f}", row.peak_mib);
     const judge::ErrorMetrics& e = *row.error;
-    return out + fmt::format(" & {} & {} & {} & {:.5f} & {:.4f} & {:.0f} \\\\\n", latexNumber(e.rmse),
+    return out + fmt::format(" & {} & {} & {} & {:.5f} & {:.4f} & {:.0f}", latexNumber(e.rmse),
                              e.edge_rmse ? latexNumber(*e.edge_rmse) : "",
                              e.psnr ? fmt::format("{:.1f}", *e.psnr) : "", e.ssim, e.flip, row.peak_mib);
 }
 
-}  // namespace
-
 std::string comparisonJson(const Comparison& c) {
-    Json json{{"scene", c.scene},
-              {"reference", c.reference},
-              {"command", c.command},
-              {"version", c.version},
-              {"machine",
-               {{"processor", c.machine.processor},
-                {"cores", c.machine.cores},
-                {"memory_mib", c.machine.memory_mib}}},
-              {"rows", Json::array()}};
+    Json json{{"scene", c.scene},     {"reference", c.reference},          {"command", c.command},
+              {"version", c.version}, {"machine", machineJson(c.machine)}, {"rows", Json::array()}};
     for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
     json["slopes"] = Json::array();
     for (const ErrorSlope& s : errorSlopes(c.rows))
@@ -125,34 +138,37 @@ std::string comparisonJson(const Comparison& c) {
     return json.dump(2) + "\n";
 }
 
-std::string comparisonCsv(const Comparison& c) {
+std::string csvColumns() {
+    return "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,"
+           "setup_seconds,rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib";
+}
+
+std::string csvFields(const Row& row) {
+    const Spread s = spreadOf(row.seconds);
     std::string out =
-        "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,setup_"
-        "seconds,"
-        "rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib\n";
-    for (const Row& row : c.rows) {
-        const Spread s = spreadOf(row.seconds);
-        out += fmt::format("{},{},{},{},{},{},{},{},", field(row.method), field(row.filter), row.radius,
-                           number(row.sigma), row.size.x, row.size.y, row.device, nameOf(row.status));
-        out += s.runs == 0 ? ",,,0,,"
-                           : fmt::format("{},{},{},{},{},", s.median, s.min, s.max, s.runs,
-                                         spreadOf(row.setup_seconds).median);
-        if (row.error)
-            out += fmt::format("{},{},{},{},{},{},{},{},", row.error->rmse, row.error->max, row.error->bias,
-                               number(row.error->psnr), number(row.error->edge_rmse),
-                               number(row.error->edge_psnr), row.error->ssim, row.error->flip);
-        else
-            out += ",,,,,,,,";
-        out += fmt::format("{}\n", row.peak_mib);
-    }
+        fmt::format("{},{},{},{},{},{},{},{},", csvText(row.method), csvText(row.filter), row.radius,
+                    number(row.sigma), row.size.x, row.size.y, row.device, nameOf(row.status));
+    out += s.runs == 0 ? ",,,0,,"
+                       : fmt::format("{},{},{},{},{},", s.median, s.min, s.max, s.runs,
+                                     spreadOf(row.setup_seconds).median);
+    if (row.error)
+        out += fmt::format("{},{},{},{},{},{},{},{},", row.error->rmse, row.error->max, row.error->bias,
+                           number(row.error->psnr), number(row.error->edge_rmse),
+                           number(row.error->edge_psnr), row.error->ssim, row.error->flip);
+    else
+        out += ",,,,,,,,";
+    return out + fmt::format("{}", row.peak_mib);
+}
+
+std::string comparisonCsv(const Comparison& c) {
+    std::string out = csvColumns() + "\n";
+    for (const Row& row : c.rows) out += csvFields(row) + "\n";
     return out;
 }
 
 std::string comparisonLatex(const Comparison& c) {
-    std::string out =
-        "\\begin{tabular}{lrrrrrrr}\n\\hline\n"
-        "method & seconds & RMSE & edge RMSE & PSNR & SSIM & FLIP & MiB \\\\\n\\hline\n";
-    for (const Row& row : c.rows) out += latexRow(row);
+    std::string out = "\\begin{tabular}{lrrrrrrr}\n\\hline\n" + latexColumns() + " \\\\\n\\hline\n";
+    for (const Row& row : c.rows) out += latexFields(row) + " \\\\\n";
     return out + "\\hline\n\\end{tabular}\n";
 }
 

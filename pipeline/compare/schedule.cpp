@@ -1,6 +1,9 @@
 #include "pipeline/compare/schedule.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/compare/worker_process.h"
@@ -29,11 +32,16 @@ void takeFacts(const Json& reply, Row& row) {
         row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
 }
 
-/// The file goes away with it.
+/// A name that no other process has, in a folder that several may share; the file goes away with it.
 class ScratchFile {
   public:
-    ScratchFile(const std::filesystem::path& folder, std::size_t index)
-        : path_(folder / fmt::format(".picture-{}", index)) {}
+    ScratchFile(const std::filesystem::path& folder, std::size_t index) {
+        std::string name = folder / fmt::format(".picture-{}-XXXXXX", index);
+        const int descriptor = mkstemp(name.data());
+        if (descriptor < 0) throw FailureError(folder.string(), "no picture can be kept there for a moment");
+        close(descriptor);
+        path_ = name;
+    }
     ~ScratchFile() {
         std::error_code error;
         std::filesystem::remove(path_, error);
@@ -61,9 +69,14 @@ class Turn {
             worker_->ask({{"do", "open"}}, std::chrono::hours(24), progress);
             first_ = ask({{"do", "run"}}, progress);
             takeFacts(first_, row_);
-            const ScratchFile file(options.scratch, index_);
-            worker_->ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24), progress);
-            take(index_, readRaw(file.path()));
+            ImageBuffer picture;
+            {  // the file is gone before the judging, which takes its time
+                const ScratchFile file(options.scratch, index_);
+                worker_->ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24),
+                             progress);
+                picture = readRaw(file.path());
+            }
+            take(index_, picture);
         });
     }
 
