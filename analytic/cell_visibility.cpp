@@ -84,16 +84,38 @@ std::size_t CellVisibility::dropHidden(const ScreenScene& scene, const Cell& cel
     return dropped;
 }
 
+/// Whether the triangles on the stack from `own` are one sheet, after what sheets hide is dropped; then it is
+/// emitted.
+bool CellVisibility::certify(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t own,
+                             const VisibilityOptions& options, CellOutput& out) {
+    const auto list = [&] { return std::span<const std::uint32_t>(stack_).subspan(own); };
+    if (std::ranges::any_of(list(),
+                            [&](std::uint32_t i) { return scene.seesThrough(scene.triangles[i].owner); }))
+        return false;
+    shared_edges_.collect(scene, cell, list());
+    if (certificate_.run(scene, cell, origin, list(), shared_edges_, out)) return true;
+    if (!options.occlusion || list().size() < 2) return false;
+    const auto hidden = sheet_occlusion_.hidden(scene, cell, list(), shared_edges_);
+    if (std::ranges::find(hidden, 1) == hidden.end()) return false;
+    std::size_t kept = own;
+    for (std::size_t i = 0; i < hidden.size(); ++i)
+        if (hidden[i] == 0) stack_[kept++] = stack_[own + i];
+    out.counts.hidden += stack_.size() - kept;
+    stack_.resize(kept);
+    shared_edges_.collect(scene, cell, list());
+    return certificate_.run(scene, cell, origin, list(), shared_edges_, out);
+}
+
 void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t begin,
                            std::size_t end, const VisibilityOptions& options, CellOutput& out) {
     const std::size_t own = stack_.size();
     const std::size_t panes = collect(scene, cell, begin, end, options, out);
-    const std::size_t count = stack_.size() - own;
-    const auto list = [&] { return std::span<const std::uint32_t>(stack_).subspan(own, count); };
-    if (options.certify && certificate_.run(scene, cell, origin, list(), out)) {
+    if (options.certify && certify(scene, cell, origin, own, options, out)) {
         stack_.resize(own);
         return;
     }
+    const std::size_t count = stack_.size() - own;
+    const auto list = [&] { return std::span<const std::uint32_t>(stack_).subspan(own, count); };
     const glm::dvec2 size = cell.max - cell.min, center = 0.5 * (cell.min + cell.max);
     // Panes bring no edges into the cell, and a smaller one would hold them all the same.
     const bool crowded = count - panes > static_cast<std::size_t>(options.max_triangles);

@@ -6,6 +6,7 @@
 
 #include "analytic/cell.h"
 #include "analytic/sheet_certificate.h"
+#include "analytic/sheet_occlusion.h"
 #include "analytic/slab_sweep.h"
 
 namespace edgewise {
@@ -28,10 +29,14 @@ class CellVisibility {
 
     std::size_t collect(const ScreenScene& scene, const Cell& cell, std::size_t begin, std::size_t end,
                         const VisibilityOptions& options, CellOutput& out);
+    bool certify(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin, std::size_t own,
+                 const VisibilityOptions& options, CellOutput& out);
     std::size_t dropHidden(const ScreenScene& scene, const Cell& cell, std::size_t from,
                            std::uint32_t occluder);
 
     std::vector<std::uint32_t> stack_;  ///< candidate lists of the open cells, one behind the other
+    SharedEdges shared_edges_;
+    SheetOcclusion sheet_occlusion_;
     SheetCertificate certificate_;
     SlabSweep sweep_;
 };

@@ -8,27 +8,20 @@
 #include <vector>
 
 #include "analytic/cell_clip.h"
+#include "analytic/shared_edges.h"
 
 namespace edgewise {
 
 class SheetCertificate {
   public:
-    /// Emits the cell to `out` and returns true, or returns false and emits nothing.
+    /// Emits the cell to `out` and returns true, or returns false and emits nothing. `shared` are the
+    /// triangles' edges; all are opaque.
     bool run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
-             std::span<const std::uint32_t> triangles, CellOutput& out);
+             std::span<const std::uint32_t> triangles, const SharedEdges& shared, CellOutput& out);
 
   private:
-    /// An edge between two triangles of the list; `canonical` runs along the carrier's direction.
-    struct SharedEdge {
-        std::uint64_t ends;  ///< the vertex ids, the smaller one first
-        LineRef canonical;
-        std::uint32_t with = kUnused,
-                      against = kUnused;  ///< the triangle whose boundary runs so, and the other
-        static constexpr std::uint32_t kUnused = 0xffffffffu;
-    };
-    bool pairEdges(const ScreenScene& scene, const Cell& cell, std::span<const std::uint32_t> triangles);
-    bool enter(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t k);
-    void emitEdge(const ScreenScene& scene, const CellFrame& frame, const SharedEdge& edge, CellOutput& out);
+    void emitEdge(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
+                  const SharedEdge& edge, CellOutput& out);
     bool sortRows();
     void emitRows(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
                   CellOutput& out);
@@ -40,8 +33,6 @@ class SheetCertificate {
         double x, slope;
         Owner before, after;
     };
-    std::vector<SharedEdge> edges_;
-    std::vector<std::uint32_t> slots_;
     std::vector<RowCrossing> crossings_;
 };
 
