@@ -52,21 +52,58 @@ LayerStacks joinStacks(std::span<CellOutput* const> outputs) {
     return table;
 }
 
-void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map) {
-    map.lines.clear(), map.segments.clear();
-    map.lines.reserve(pieces.size()), map.segments.reserve(pieces.size());  // never held twice while growing
-    LineRef last{};
+namespace {
+
+/// Calls visit(the piece, joined; whether its line is a new one).
+template <class Visit>
+void forEachMerged(const ScreenScene& scene, std::span<const SegmentPiece> pieces, const Visit& visit) {
+    LineRef last = LineRef::closing();
     for (std::size_t i = 0; i < pieces.size();) {
         SegmentPiece piece = pieces[i];
         for (++i; i < pieces.size() && joins(piece, pieces[i]); ++i) piece.b = pieces[i].b;
-        if (piece.line.isClosing() || map.lines.empty() || !sameLine(scene, last, piece.line)) {
-            map.lines.push_back(piece.line.isClosing() ? closingLine(piece.a)
-                                                       : carrierLine(carrierOf(scene, piece.line)));
-            last = piece.line;
-        }
-        const auto line = static_cast<std::uint32_t>(map.lines.size() - 1);
-        map.segments.push_back({piece.a, piece.b, distance(piece.a, piece.b), line, piece.left, piece.right});
+        const bool is_new = piece.line.isClosing() || last.isClosing() || !sameLine(scene, last, piece.line);
+        if (is_new) last = piece.line;
+        visit(piece, is_new);
     }
+}
+
+}  // namespace
+
+MergedCounts countMerged(const ScreenScene& scene, std::span<const SegmentPiece> pieces) {
+    MergedCounts counts;
+    forEachMerged(scene, pieces, [&](const SegmentPiece&, bool is_new) {
+        ++counts.segments;
+        counts.lines += is_new;
+    });
+    return counts;
+}
+
+void mergeInto(const ScreenScene& scene, std::span<const SegmentPiece> pieces, const MergedCounts& before,
+               std::span<CarrierLine> lines, std::span<VisibleSegment> segments) {
+    MergedCounts at = before;
+    forEachMerged(scene, pieces, [&](const SegmentPiece& piece, bool is_new) {
+        if (is_new)
+            lines[at.lines++] =
+                piece.line.isClosing() ? closingLine(piece.a) : carrierLine(carrierOf(scene, piece.line));
+        const auto line = static_cast<std::uint32_t>(at.lines - 1);
+        segments[at.segments++] = {piece.a, piece.b,    distance(piece.a, piece.b),
+                                   line,    piece.left, piece.right};
+    });
+}
+
+void mergeSorted(const ScreenScene& scene, std::span<const SegmentPiece> pieces, VisibleMap& map) {
+    const MergedCounts counts = countMerged(scene, pieces);
+    map.lines.resize(counts.lines), map.segments.resize(counts.segments);
+    mergeInto(scene, pieces, {}, map.lines, map.segments);
+}
+
+std::size_t joinRow(std::span<RowOwner> row) {
+    std::stable_sort(row.begin(), row.end(),
+                     [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
+    return static_cast<std::size_t>(
+        std::unique(row.begin(), row.end(),
+                    [](const RowOwner& a, const RowOwner& b) { return a.owner == b.owner; }) -
+        row.begin());
 }
 
 void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, VisibleMap& map) {
@@ -79,13 +116,8 @@ void mergeRows(std::span<const RowPiece> pieces, int row_begin, int row_end, Vis
     map.row_offset.assign(1, 0);
     map.rows.clear();
     for (std::vector<RowOwner>& row : rows) {
-        std::stable_sort(row.begin(), row.end(),
-                         [](const RowOwner& a, const RowOwner& b) { return a.x_px < b.x_px; });
-        const std::size_t begin = map.rows.size();
-        for (const RowOwner& entry : row) {
-            if (map.rows.size() > begin && map.rows.back().owner == entry.owner) continue;
-            map.rows.push_back(entry);
-        }
+        row.resize(joinRow(row));
+        map.rows.insert(map.rows.end(), row.begin(), row.end());
         map.row_offset.push_back(map.rows.size());
     }
 }

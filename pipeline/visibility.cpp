@@ -4,9 +4,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "pipeline/error.h"
+#include "pipeline/merge_map.h"
 
 namespace edgewise {
 namespace {
@@ -19,20 +19,6 @@ struct Worker {
 void emptyRows(const Cell& cell, std::vector<RowPiece>& rows) {
     for (int row = static_cast<int>(cell.min.y); row < static_cast<int>(cell.max.y); ++row)
         rows.push_back({row, kBackground, cell.min.x + kBorderRestPx});
-}
-
-template <class Item>
-std::vector<Item> concatenate(tbb::enumerable_thread_specific<Worker>& workers,
-                              std::vector<Item> CellOutput::*part) {
-    std::size_t size = 0;
-    for (Worker& w : workers) size += (w.out.*part).size();
-    std::vector<Item> all;
-    all.reserve(size);
-    for (Worker& w : workers) {
-        all.insert(all.end(), (w.out.*part).begin(), (w.out.*part).end());
-        std::vector<Item>().swap(w.out.*part);
-    }
-    return all;
 }
 
 }  // namespace
@@ -61,19 +47,9 @@ VisibleMap visibility(const ScreenScene& scene, const CellGrid& grid, const IdLi
                            fmt::format("more than {} triangles are seen through each other", kMostLayers));
     }
     for (Worker& w : workers) counts.add(w.out.counts);
-    VisibleMap map;
     std::vector<CellOutput*> outputs;
-    for (Worker& w : workers) outputs.push_back(&w.out);
-    map.stacks = joinStacks(outputs);
-    {
-        std::vector<SegmentPiece> pieces = concatenate(workers, &CellOutput::segments);
-        counts.pieces += pieces.size();
-        if (progress.cancelled()) throw Interrupted();
-        tbb::parallel_sort(pieces.begin(), pieces.end(), pieceBefore);
-        mergeSorted(scene, pieces, map);
-    }
-    mergeRows(concatenate(workers, &CellOutput::rows), grid.px.y0, grid.px.y1, map);
-    return map;
+    for (Worker& w : workers) counts.pieces += w.out.segments.size(), outputs.push_back(&w.out);
+    return mergeMap(scene, outputs, grid.px.y0, grid.px.y1, progress);
 }
 
 }  // namespace edgewise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "pipeline/merge_map.h"
 #include "pipeline/vulkan/layouts.h"
 
 namespace edgewise::vulkan {
@@ -325,18 +326,15 @@ void VisibilityPasses::Work::merge(const VisibilityInput& input, CellOutput& out
     const auto done = leaf_cells_->read<std::uint32_t>(2 * std::size_t{s.cells_room},
                                                        2 * std::size_t{s.cells_room} * sizeof(std::uint32_t));
     const auto counts = [&](std::uint32_t tag) { return tag == kNoTag || done[tag] != 0; };
-    CellOutput* const outputs[] = {&out};
-    map = {};
-    map.stacks = joinStacks(outputs);
     out.segments.reserve(out.segments.size() + s.pieces);
     for (const GpuPiece& p : pieces_->read<GpuPiece>(s.pieces))
         if (p.left != p.right && counts(p.tag)) out.segments.push_back(pieceFrom(p));
     for (const GpuRowPiece& p : rows_->read<GpuRowPiece>(s.rows))
         if (counts(p.tag)) out.rows.push_back({p.row, p.owner, p.x_px});
     report.counts.pieces = out.segments.size();
-    std::sort(out.segments.begin(), out.segments.end(), pieceBefore);
-    mergeSorted(input.scene, out.segments, map);
-    mergeRows(out.rows, input.grid.px.y0, input.grid.px.y1, map);
+    CellOutput* const outputs[] = {&out};
+    Progress uncancelled;
+    map = mergeMap(input.scene, outputs, input.grid.px.y0, input.grid.px.y1, uncancelled);
 }
 
 void VisibilityPasses::Work::run(const Buffer& triangles, const Buffer& planes, const Buffer& offsets,
