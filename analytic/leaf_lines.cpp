@@ -1,6 +1,7 @@
 #include "analytic/leaf_lines.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace edgewise {
 namespace {
@@ -60,6 +61,27 @@ bool separates(const ScreenTriangle& s, const ScreenTriangle& t) {
 /// Edges that meet in a vertex cross nowhere else.
 bool meetInVertex(const Carrier& p, const Carrier& q) {
     return p.isEdge() && q.isEdge() && (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b);
+}
+
+/// A line inside a cell in plain doubles, from the cell's origin.
+struct Course {
+    double x, y, y_end, slope;
+
+    Course(const LeafLine& line, const CellFrame& frame)
+        : x(frame.localX(line.enter)),
+          y(frame.localY(yOf(line.enter))),
+          y_end(frame.localY(yOf(line.exit))),
+          slope(line.slope) {}
+    /// Of xAt(): coordinates within two cells carry roundings of 2^-48 px, the slope one of 2^-52 of itself.
+    double error() const { return (1.0 + std::abs(slope)) * 0x1p-44; }
+    double xAt(double at_y) const { return x + (at_y - y) * slope; }
+};
+
+/// Whether p surely stays on one side of q where both run inside the cell.
+bool staysBeside(const Course& p, const Course& q) {
+    const double y0 = std::max(p.y, q.y), y1 = std::min(p.y_end, q.y_end), error = p.error() + q.error();
+    const double d0 = p.xAt(y0) - q.xAt(y0), d1 = p.xAt(y1) - q.xAt(y1);
+    return (d0 > error && d1 > error) || (d0 < -error && d1 < -error);
 }
 
 }  // namespace
@@ -159,11 +181,12 @@ void LeafLines::addCrossings() {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const LeafLine& p = lines[i];
         if (!p.runsInside()) continue;
+        const Course course(p, frame);
         for (std::size_t j = i + 1; j < lines.size(); ++j) {
             const LeafLine& q = lines[j];
             if (!q.runsInside() || p.in1 < q.in0 || q.in1 < p.in0) continue;
             if (p.x_high + kPad < q.x_low || q.x_high + kPad < p.x_low) continue;
-            if (meetInVertex(p.carrier, q.carrier)) continue;
+            if (staysBeside(course, {q, frame}) || meetInVertex(p.carrier, q.carrier)) continue;
             FinePoint point;
             if (!crossing(p.carrier, q.carrier, point)) continue;
             const OrderKey key = frame.key(yOf(point));

@@ -31,12 +31,16 @@ struct Track {
 struct Bound {
     std::uint32_t line;
     Owner after;
+    bool operator==(const Bound&) const = default;
 };
 
 /// The owners of a slab from left to right.
 struct Profile {
     Owner first = kBackground;
     std::vector<Bound> bounds;
+
+    /// Left of bound i.
+    Owner ownerBefore(std::size_t i) const { return i == 0 ? first : bounds[i - 1].after; }
 };
 
 /// Where the owner above or below an ordinate changes, or where a horizontal line or the cell ends.
@@ -119,8 +123,9 @@ struct SlabSweep::State {
     FinePoint topPoint(std::uint32_t line, std::size_t slab) const;
     FinePoint bottomPoint(std::uint32_t line, std::size_t slab) const;
     bool sameProfiles() const;
-    void addBreaks(const Profile& profile, int above, std::size_t slab);
-    void collectBreaks(std::size_t first, std::size_t slab);
+    std::size_t commonBounds() const;
+    void addBreaks(const Profile& profile, std::size_t from, int above, std::size_t slab);
+    void collectBreaks(std::size_t first, std::size_t common, std::size_t slab);
     void emitHorizontal(FineCoordinate from, FineCoordinate to, Owner over, Owner under, std::size_t first,
                         std::size_t slab);
     double leftBorder() const { return (cell.min.x - origin.x) + kBorderRestPx; }
@@ -362,14 +367,19 @@ void SlabSweep::State::emitRows(std::size_t slab) {
 /// Whether two profiles change owners at the same lines: then nothing changes across the ordinate between
 /// them.
 bool SlabSweep::State::sameProfiles() const {
-    const auto same = [](const Bound& a, const Bound& b) { return a.line == b.line && a.after == b.after; };
-    return above.first == below.first && std::equal(above.bounds.begin(), above.bounds.end(),
-                                                    below.bounds.begin(), below.bounds.end(), same);
+    return above.first == below.first && std::ranges::equal(above.bounds, below.bounds);
 }
 
-void SlabSweep::State::addBreaks(const Profile& profile, int above_sign, std::size_t slab) {
-    Owner before = profile.first;
-    for (const Bound& b : profile.bounds) {
+/// The bounds that both profiles begin with say nothing of the ordinate between them.
+std::size_t SlabSweep::State::commonBounds() const {
+    if (above.first != below.first) return 0;
+    const auto [a, b] = std::ranges::mismatch(above.bounds, below.bounds);
+    return static_cast<std::size_t>(a - above.bounds.begin());
+}
+
+void SlabSweep::State::addBreaks(const Profile& profile, std::size_t from, int above_sign, std::size_t slab) {
+    Owner before = profile.ownerBefore(from);
+    for (const Bound& b : std::span(profile.bounds).subspan(from)) {
         breaks.push_back({xOf(topPoint(b.line, slab)), above_sign, before, b.after});
         before = b.after;
     }
@@ -377,14 +387,14 @@ void SlabSweep::State::addBreaks(const Profile& profile, int above_sign, std::si
 
 /// Between the cell's borders by ascending abscissa. It comes from the points at which the pieces of the
 /// lines end, bit for bit: only then do the horizontals close what those leave open.
-void SlabSweep::State::collectBreaks(std::size_t first, std::size_t slab) {
+void SlabSweep::State::collectBreaks(std::size_t first, std::size_t common, std::size_t slab) {
     breaks.assign(1, {border(cell.min.x)});
     for (std::size_t h = first; h < next_horizontal; ++h) {
         breaks.push_back({xOf(leaf.horizontals[h].low)});
         breaks.push_back({xOf(leaf.horizontals[h].high)});
     }
-    addBreaks(above, 1, slab);
-    addBreaks(below, -1, slab);
+    addBreaks(above, common, 1, slab);
+    addBreaks(below, common, -1, slab);
     std::stable_sort(breaks.begin() + 1, breaks.end(),
                      [](const Break& a, const Break& b) { return difference(a.x, b.x) < 0.0; });
     breaks.push_back({border(cell.max.x)});
@@ -399,10 +409,11 @@ void SlabSweep::State::emitHorizontals(std::size_t slab) {
     while (next_horizontal < leaf.horizontals.size() && leaf.horizontals[next_horizontal].key == key)
         ++next_horizontal;
     if (first == next_horizontal && sameProfiles()) return;
-    collectBreaks(first, slab);
+    const std::size_t common = commonBounds();
+    collectBreaks(first, common, slab);
     balance.clear();
-    balance.add(above.first, 1);
-    balance.add(below.first, -1);
+    balance.add(above.ownerBefore(common), 1);
+    balance.add(below.ownerBefore(common), -1);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         const Break& here = breaks[i];
         if (here.above != 0) {
