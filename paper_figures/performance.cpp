@@ -30,7 +30,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-constexpr const char* kFreeType = "its bar is FreeType's time, which edgewise_bench measures beside it";
+constexpr const char* kFreeType = "its bar is FreeType's time: edgewise_bench, peer/freetype";
 
 PerformanceScene boxed(const std::string& name, int width, int height, const std::string& remark = "") {
     return {name, name, "box", 0.5, width, height, "rt:4", "rt:1", remark};
