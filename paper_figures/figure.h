@@ -31,5 +31,6 @@ struct Figure {
 const std::vector<Figure>& figureRegistry();
 
 std::vector<FigureFile> makeFilterStudy(const FigureInput& input);
+std::vector<FigureFile> makePerformance(const FigureInput& input);
 
 }  // namespace edgewise::figures

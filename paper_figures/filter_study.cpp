@@ -11,7 +11,6 @@
 #include "paper_figures/aliased_part.h"
 #include "paper_figures/slanted_edge.h"
 #include "pipeline/compare/error_map.h"
-#include "pipeline/compare/svg_pdf.h"
 #include "pipeline/error.h"
 #include "pipeline/load_gltf.h"
 #include "pipeline/resolve_camera.h"
@@ -230,17 +229,14 @@ std::string titleOf(const Prefilter& filter) {
 std::vector<FigureFile> makeFilterStudy(const FigureInput& input) {
     FilterStudy found = study(input.quick ? kQuick : kFull, input.progress);
     found.quick = input.quick;
-    const auto plots = filterStudyPlots(found);
+    const auto plots = filterFigurePlots(found);
     std::vector<FigureFile> files{{"report.html", filterStudyHtml(found, plots)},
                                   {"results.json", filterStudyJson(found)},
                                   {"results.csv", filterStudyCsv(found)},
                                   {"response.csv", responseCsv(found)},
                                   {"step.csv", stepCsv(found)},
                                   {"table.tex", filterStudyLatex(found)}};
-    for (const StudyPlot& plot : plots) {
-        files.push_back({plot.name + ".svg", plot.svg});
-        files.push_back({plot.name + ".pdf", compare::svgPdf(plot.svg, plot.name + ".pdf")});
-    }
+    appendPlotFiles(plots, files);
     for (const StudyPicture& picture : found.pictures) {
         files.push_back({picture.file, bytesOf(picture.png)});
         if (!picture.aliased_file.empty())

@@ -8,6 +8,7 @@
 
 #include "analytic/filter_properties.h"
 #include "paper_figures/figure.h"
+#include "paper_figures/figure_plot.h"
 
 namespace edgewise::figures {
 
@@ -65,10 +66,7 @@ std::string titleOf(const Prefilter& filter);
 /// Every filter has one colour on the whole page, at any radius.
 std::string colorOf(const FilterStudy& study, const Prefilter& filter);
 
-struct StudyPlot {
-    std::string name, caption, svg;
-};
-std::vector<StudyPlot> filterStudyPlots(const FilterStudy& study);
+std::vector<FigurePlot> filterFigurePlots(const FilterStudy& study);
 
 std::string filterStudyJson(const FilterStudy& study);
 std::string filterStudyCsv(const FilterStudy& study);
@@ -77,6 +75,6 @@ std::string responseCsv(const FilterStudy& study);
 std::string stepCsv(const FilterStudy& study);
 std::string filterStudyLatex(const FilterStudy& study);
 
-std::string filterStudyHtml(const FilterStudy& study, const std::vector<StudyPlot>& plots);
+std::string filterStudyHtml(const FilterStudy& study, const std::vector<FigurePlot>& plots);
 
 }  // namespace edgewise::figures

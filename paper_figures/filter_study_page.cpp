@@ -15,9 +15,6 @@ namespace edgewise::figures {
 namespace {
 
 constexpr const char* kStyle = R"css(
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(560px,1fr));gap:14px}
-figure{margin:0}figcaption{font-size:13px;color:#444;margin-top:4px}
-.plots .card svg{max-width:none}
 .shown{position:sticky;top:0;background:#f6f6f4ee;padding:8px 0;z-index:1;display:flex;flex-wrap:wrap;gap:2px 14px}
 .shown label{white-space:nowrap;font-size:13px}
 .shown i{display:inline-block;width:16px;height:4px;border-radius:2px;vertical-align:middle;margin:0 4px 0 2px}
@@ -154,18 +151,6 @@ std::string picturesHtml(const FilterStudy& study) {
     return out;
 }
 
-std::string plotsHtml(const std::vector<StudyPlot>& plots) {
-    std::string out = "<div class='plots'>\n";
-    for (const StudyPlot& plot : plots) {
-        std::string svg = plot.svg;  // one id a page
-        for (std::size_t at = 0; (at = svg.find("inside", at)) != std::string::npos; at += plot.name.size())
-            svg.replace(at, 6, plot.name);
-        out += fmt::format("<figure class='card'>{}<figcaption>{}</figcaption></figure>\n", svg,
-                           escapedHtml(plot.caption));
-    }
-    return out + "</div>\n";
-}
-
 /// The best and the worst in words: what the table says first.
 std::string findings(const FilterStudy& study) {
     const auto least = [&](auto&& value) {
@@ -241,15 +226,16 @@ std::string definitions(const FilterStudy& study) {
 
 }  // namespace
 
-std::string filterStudyHtml(const FilterStudy& study, const std::vector<StudyPlot>& plots) {
+std::string filterStudyHtml(const FilterStudy& study, const std::vector<FigurePlot>& plots) {
     return fmt::format(
                "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
                "content='width=device-width'><title>Filter study</title><link rel='icon' href='data:,'>"
-               "<style>{}{}</style></head><body><main><h1>Filter study</h1><p>NSAA's Figure 6, continued: "
+               "<style>{}{}{}</style></head><body><main><h1>Filter study</h1><p>NSAA's Figure 6, continued: "
                "every "
                "filter, exactly evaluated, on the paper's patterns. edgewise {}, <code>edgewise figure "
                "filter-study{} -o DIR</code>; nothing random, no seed</p>\n",
-               compare::kReportStyle, kStyle, escapedHtml(version()), study.quick ? " --quick" : "") +
+               compare::kReportStyle, kPlotStyle, kStyle, escapedHtml(version()),
+               study.quick ? " --quick" : "") +
            findings(study) + "<h2>Ranking</h2><div class='card scroll'>" + table(study) +
            "</div>\n<h2>Responses</h2>" + ticks(study) + plotsHtml(plots) +
            fmt::format(

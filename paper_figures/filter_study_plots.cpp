@@ -94,11 +94,11 @@ std::string colorOf(const FilterStudy& study, const Prefilter& filter) {
     return kPlotColors[before.size() % kPlotColors.size()];
 }
 
-std::vector<StudyPlot> filterStudyPlots(const FilterStudy& study) {
+std::vector<FigurePlot> filterFigurePlots(const FilterStudy& study) {
     const Shown paper{study, [](const FilterRow& row) { return row.paper_radius; }, false};
     const Shown own{study, [](const FilterRow& row) { return !row.paper_radius; }, true};
     const Shown all{study, [](const FilterRow&) { return true; }, true};
-    std::vector<StudyPlot> plots{
+    std::vector<FigurePlot> plots{
         {"response-axis",
          "Frequency response along the axis, R 2. Lines: the kernel's transform. Dots: from a slanted edge "
          "that "

@@ -15,7 +15,30 @@ constexpr double kLegendStep = 18;
 constexpr double kDot = 2.4, kLoneDot = 4.5;  ///< on a line; without one
 
 double part(const PlotAxis& axis, double value) {
+    if (axis.logarithmic) return std::log(value / axis.low) / std::log(axis.high / axis.low);
     return (value - axis.low) / (axis.high - axis.low);
+}
+
+constexpr double kDecadesOfAllLabels = 2.5;  ///< beyond, powers of ten alone
+
+std::vector<double> logarithmicTicks(const PlotAxis& axis) {
+    const bool all = std::log10(axis.high / axis.low) < kDecadesOfAllLabels;
+    std::vector<double> ticks;
+    for (int e = static_cast<int>(std::floor(std::log10(axis.low))); std::pow(10.0, e) <= axis.high; ++e)
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            const double value = digit * std::pow(10.0, e);
+            if ((all || digit == 1.0) && value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9))
+                ticks.push_back(value);
+        }
+    return ticks;
+}
+
+std::vector<double> ticksOf(const PlotAxis& axis) {
+    if (axis.logarithmic) return logarithmicTicks(axis);
+    const int count = static_cast<int>(std::floor((axis.high - axis.low) / axis.step + 1e-9));
+    std::vector<double> ticks;
+    for (int i = 0; i <= count; ++i) ticks.push_back(axis.low + i * axis.step);
+    return ticks;
 }
 
 class Canvas {
@@ -27,17 +50,15 @@ class Canvas {
 
     std::string axes() const {
         std::string out;
-        forTicks(plot_.y, [&](double v) {
+        for (const double v : ticksOf(plot_.y))
             out += fmt::format(
                 "<path d='M{} {:.1f}h{}' stroke='#ddd'/><text x='{}' y='{:.1f}' text-anchor='end'>{}</text>",
                 kLeft, py(v), kInnerWidth, kLeft - 6, py(v) + 4, number(v));
-        });
-        forTicks(plot_.x, [&](double v) {
+        for (const double v : ticksOf(plot_.x))
             out += fmt::format(
                 "<path d='M{:.1f} {}v{}' stroke='#ddd'/><text x='{:.1f}' y='{}' "
                 "text-anchor='middle'>{}</text>",
                 px(v), kTop, kInnerHeight, px(v), kTop + kInnerHeight + 17, number(v));
-        });
         for (const PlotMark& mark : plot_.marks)
             out += fmt::format(
                 "<path d='M{0:.1f} {1}v{2}' stroke='#555' stroke-dasharray='2 3'/><text "
@@ -77,15 +98,11 @@ class Canvas {
         return one.hollow ? " fill='#fff' stroke-width='2'" : " stroke='none'";
     }
 
-    template <class Visit>
-    static void forTicks(const PlotAxis& axis, const Visit& visit) {
-        const int count = static_cast<int>(std::floor((axis.high - axis.low) / axis.step + 1e-9));
-        for (int i = 0; i <= count; ++i) visit(axis.low + i * axis.step);
-    }
-
-    /// With a true minus sign, and no -0.
+    /// With a true minus sign, and no -0; large ones as 20k and 1M.
     static std::string number(double value) {
         if (std::abs(value) < 1e-12) return "0";
+        if (value >= 1e6) return fmt::format("{:g}M", value / 1e6);
+        if (value >= 1e4) return fmt::format("{:g}k", value / 1e3);
         return fmt::format("{}{:g}", value < 0 ? "&#8722;" : "", std::round(std::abs(value) * 1e9) / 1e9);
     }
 

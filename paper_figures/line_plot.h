@@ -1,4 +1,4 @@
-// Curves over linear axes, as one <svg> that stands by itself.
+// Curves over linear or logarithmic axes, as one <svg> that stands by itself.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,6 +17,7 @@ struct PlotCurve {
 struct PlotAxis {
     double low, high, step;  ///< a label each step
     std::string title;
+    bool logarithmic = false;  ///< labels at 1, 2, 5 times powers of ten; low > 0, `step` counts for nothing
 };
 
 struct PlotMark {

@@ -1,6 +1,7 @@
 // What `edgewise compare` finds: a row a method, and what is common to all rows.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
@@ -41,6 +42,7 @@ struct Row {
     std::string why;                                    ///< not ok: in words
     std::vector<double> seconds, setup_seconds;         ///< by run
     std::map<std::string, std::vector<double>> stages;  ///< name -> seconds by run
+    std::map<std::string, std::uint64_t> counts;        ///< of the last run, by name
     double peak_mib = 0.0;
     std::optional<judge::ErrorMetrics> error;  ///< none where no picture was made
     std::optional<FewEdgesError> few_edges;    ///< with a reference that is nsaa

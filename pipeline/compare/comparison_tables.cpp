@@ -64,6 +64,7 @@ Json rowJson(const Row& row) {
             {"bias_half_width", orNull(row.bias_half_width)},
             {"few_edges",
              row.few_edges ? Json{{"pixels", row.few_edges->pixels}, {"rmse", row.few_edges->rmse}} : Json()},
+            {"counts", row.counts},
             {"peak_mib", row.peak_mib},
             {"exr", fileJson(row.exr)},
             {"png", fileJson(row.png)},
@@ -197,6 +198,7 @@ Row rowFromText(const std::string& text) {
         row.seconds = json.at("seconds").get<std::vector<double>>();
         row.setup_seconds = json.at("setup_seconds").get<std::vector<double>>();
         row.stages = json.at("stages").get<std::map<std::string, std::vector<double>>>();
+        row.counts = json.value("counts", row.counts);
         row.peak_mib = json.at("peak_mib");
         if (const Json& e = json.at("error"); !e.is_null()) {
             judge::ErrorMetrics& error = row.error.emplace();

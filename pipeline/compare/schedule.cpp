@@ -26,6 +26,7 @@ void takeFacts(const Json& reply, Row& row) {
     row.device = reply.at("device");
     row.size = {reply.at("size")[0], reply.at("size")[1]};
     row.peak_mib = std::max<double>(row.peak_mib, reply.at("peak_mib"));
+    row.counts = reply.at("counts").get<std::map<std::string, std::uint64_t>>();
     row.notes = reply.at("notes");
     row.plan.clear();
     for (const Json& entry : reply.at("plan"))
@@ -69,6 +70,7 @@ class Turn {
             worker_->ask({{"do", "open"}}, std::chrono::hours(24), progress);
             first_ = ask({{"do", "run"}}, progress);
             takeFacts(first_, row_);
+            if (!options.pictures) return;
             ImageBuffer picture;
             {  // the file is gone before the judging, which takes its time
                 const ScratchFile file(options.scratch, index_);

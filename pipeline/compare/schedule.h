@@ -20,6 +20,7 @@ struct ScheduleOptions {
     int runs = 5;  ///< that are timed, after one that is not
     double budget_seconds = std::numeric_limits<double>::infinity();  ///< a method, all its runs
     std::filesystem::path scratch;                                    ///< a folder for pictures on their way
+    bool pictures = true;  ///< false: times alone, nothing is taken
 };
 
 /// What a picture of row `index` is given to, once, as soon as it is there.

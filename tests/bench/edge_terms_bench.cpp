@@ -1,9 +1,12 @@
-// Nanoseconds a (segment, sample) term. items_per_second counts terms whose support meets the segment.
+// Nanoseconds a (segment, sample) term whose support meets the segment: with its owners' sums, and the closed
+// form alone in every instruction set of this machine.
 #include <benchmark/benchmark.h>
 
+#include <bit>
 #include <random>
 #include <string>
 
+#include "analytic/edge_integral.h"
 #include "tests/analytic/triangle_map.h"
 
 namespace edgewise::test {
@@ -22,11 +25,11 @@ std::vector<MapSegment> segmentsAround(glm::dvec2 sample, double radius) {
     return segments;
 }
 
-void pixelWeights(benchmark::State& state, const std::string& name) {
+void pixelWeights(benchmark::State& state, const std::string& name, Precision precision) {
     const Prefilter filter = makePrefilter(name, {}, {});
     const glm::dvec2 sample{400.5, 300.5};
     const auto segments = segmentsAround(sample, filter.radius);
-    PixelWeights weights(filter);
+    PixelWeights weights(filter, precision);
     std::vector<OwnerWeight> out;
     std::size_t offset[9];
     const Owner base[8] = {};
@@ -45,13 +48,49 @@ void pixelWeights(benchmark::State& state, const std::string& name) {
         static_cast<double>(weights.terms()) / static_cast<double>(state.iterations() * 1000);
 }
 
+EdgeInput inputOf(glm::dvec2 sample, const MapSegment& of) {
+    const VisibleSegment& s = of.segment;
+    const CarrierLine& l = of.line;
+    return {sample.x,   sample.y,   s.a.grid.x,    s.a.grid.y,   s.a.rest.x, s.a.rest.y,
+            s.b.grid.x, s.b.grid.y, s.b.rest.x,    s.b.rest.y,   s.length,   l.origin.x,
+            l.origin.y, l.nx_hi,    l.nx_lo,       l.ny_hi,      l.ny_lo,    l.c_hi,
+            l.c_lo,     l.length,   l.direction.x, l.direction.y};
+}
+
+void closedForm(benchmark::State& state, const std::string& name, EdgeTermsFunction edge_terms) {
+    const Prefilter filter = makePrefilter(name, {}, {});
+    const EdgeKernel kernel(filter);
+    std::vector<EdgeInput> inputs;
+    for (const MapSegment& s : segmentsAround({400.5, 300.5}, filter.radius))
+        inputs.push_back(inputOf({400.5, 300.5}, s));
+    EdgeTerms terms;
+    double touched = 0;
+    for (auto _ : state)
+        for (const EdgeInput& input : inputs) {
+            edge_terms(kernel.lanes, input, terms);
+            benchmark::DoNotOptimize(terms);
+            touched += std::popcount(terms.touched);
+        }
+    state.counters["ns_per_term"] =
+        benchmark::Counter(touched * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 }  // namespace
 }  // namespace edgewise::test
 
 int main(int count, char** arguments) {
-    for (const char* name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline",
-                             "mitchell", "lanczos", "poly:1,-2,1"})
-        benchmark::RegisterBenchmark(name, edgewise::test::pixelWeights, std::string(name));
+    using edgewise::Precision;
+    for (const std::string name : {"box", "disk", "tent", "cone", "gaussian", "gaussian-separable", "bspline",
+                                   "mitchell", "catmull-rom", "bc:0.5,0.25", "lanczos", "poly:1,-2,1"}) {
+        benchmark::RegisterBenchmark(("terms/" + name).c_str(), edgewise::test::pixelWeights, name,
+                                     Precision::kFp64);
+        benchmark::RegisterBenchmark(("terms/" + name + "/fp32").c_str(), edgewise::test::pixelWeights, name,
+                                     Precision::kFp32);
+        for (const std::string isa : {"scalar", "sse2", "avx2", "avx512"})
+            if (const auto function = edgewise::edgeTermsFor(isa.c_str()))
+                benchmark::RegisterBenchmark(("closed_form/" + name + "/" + isa).c_str(),
+                                             edgewise::test::closedForm, name, function);
+    }
     benchmark::Initialize(&count, arguments);
     benchmark::RunSpecifiedBenchmarks();
 }

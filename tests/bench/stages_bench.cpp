@@ -1,100 +1,129 @@
-// Seconds of one stage of nsaa, the stages before it done once: gather, visibility, weights.
-#include <benchmark/benchmark.h>
-
-#include <memory>
-#include <string>
-
-#include "pipeline/gather.h"
-#include "pipeline/load_gltf.h"
-#include "pipeline/plan.h"
-#include "pipeline/project.h"
-#include "pipeline/resolve_camera.h"
-#include "pipeline/scene_catalog.h"
+// Seconds of one stage, the stages before it done once. On all threads but weights and blend, which have one.
+#include "pipeline/blend.h"
+#include "pipeline/write_image.h"
+#include "tests/bench/prepared.h"
 
 namespace edgewise::bench {
 namespace {
 
-constexpr int kFilmPx = 1024;
+void benchLoad(benchmark::State& state, const std::string& name) {
+    const std::filesystem::path file = findScene(name);
+    double triangles = 0;
+    for (auto _ : state) triangles = static_cast<double>(loadGltf(file).triangle_count);
+    countNanoseconds(state, "triangle", triangles);
+}
 
-/// A scene after every stage, for one filter.
-struct Prepared {
-    Scene scene;
-    Film film;
-    ResolvedCamera camera;
-    Prefilter filter;
-    RenderOptions options;
-    Progress progress;
-    ScreenPieces pieces;
-    ScreenScene screen;
-    std::unique_ptr<CellGrid> grid;
-    Plan plan;
-    IdLists lists;
-    VisibleMap map;
-    WeightTiles tiles;
-
-    Prepared(const std::string& name, const std::string& filter_name)
-        : scene(loadGltf(findScene(name))), filter(makePrefilter(filter_name, {}, {})) {
-        CameraOptions camera_options;
-        camera_options.size = glm::ivec2(kFilmPx);
-        camera = resolveCamera(scene, camera_options, film);
-        screen = project(scene, camera, film, pieces);
-        plan = makePlan(scene, screen, pieces, Shading(scene, camera, film, screen, pieces), options);
-        const int reach = static_cast<int>(filter.radius) + 2;
-        grid = std::make_unique<CellGrid>(Window{-reach, -reach, kFilmPx + reach, kFilmPx + reach});
-        lists = edgewise::gather(screen, *grid);
-        map = visible();
-        tiles = gatherSegments(map, film.crop, glm::dvec2(0.0), filter.radius);
+void benchProject(benchmark::State& state, const std::string& name) {
+    Prepared prepared(name);
+    for (auto _ : state) {
+        ScreenPieces pieces;
+        benchmark::DoNotOptimize(
+            project(prepared.scene, prepared.camera, prepared.film, pieces).triangles.data());
     }
+    countNanoseconds(state, "triangle", static_cast<double>(prepared.scene.triangle_count));
+}
 
-    VisibleMap visible() {
-        VisibilityCounts counts;
-        return edgewise::visibility(screen, *grid, lists, plan.visibility, progress, counts);
+/// With the shading that it asks for constant colours.
+void benchPlan(benchmark::State& state, const std::string& name) {
+    Prepared p(name);
+    for (auto _ : state) {
+        const Shading shading(p.scene, p.camera, p.film, p.screen, p.pieces);
+        benchmark::DoNotOptimize(makePlan(p.scene, p.screen, p.pieces, shading, p.options).entries.data());
+    }
+    countNanoseconds(state, "triangle", static_cast<double>(p.scene.triangle_count));
+}
+
+void benchGather(benchmark::State& state, const std::string& name) {
+    Prepared prepared(name);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(edgewise::gather(prepared.screen, *prepared.grid).ids.data());
+    countNanoseconds(state, "pair", static_cast<double>(prepared.lists.ids.size()));
+}
+
+void benchVisibility(benchmark::State& state, const std::string& name) {
+    Prepared prepared(name);
+    for (auto _ : state) benchmark::DoNotOptimize(prepared.visible().segments.data());
+    countNanoseconds(state, "segment", static_cast<double>(prepared.map.segments.size()));
+}
+
+void benchSegmentTiles(benchmark::State& state, const std::string& name) {
+    const Prepared prepared(name);
+    for (auto _ : state) benchmark::DoNotOptimize(prepared.segmentTiles().segments.ids.data());
+    countNanoseconds(state, "segment", static_cast<double>(prepared.map.segments.size()));
+}
+
+void benchWeights(benchmark::State& state, const std::string& name, const std::string& filter) {
+    const Prepared prepared(name, filter);
+    WeightWorker worker(prepared.filter, prepared.plan.weights);
+    WeightTile out;
+    for (auto _ : state)
+        for (std::size_t t = 0; t < prepared.tiles.boxes.size(); ++t) {
+            prepared.weigh(worker, t, out);
+            benchmark::DoNotOptimize(out.entries.data());
+        }
+    countNanoseconds(state, "term",
+                     static_cast<double>(worker.terms()) / static_cast<double>(state.iterations()));
+}
+
+/// Every tile's weights are there; scenes of the benches have no see-through layers.
+struct Weighed : Prepared {
+    std::vector<WeightTile> weights;
+    ImageBuffer image{film.crop};
+    double pairs = 0;
+
+    Weighed(const std::string& name, const std::string& filter_name) : Prepared(name, filter_name) {
+        WeightWorker worker(filter, plan.weights);
+        weights.resize(tiles.boxes.size());
+        for (std::size_t t = 0; t < weights.size(); ++t) {
+            weigh(worker, t, weights[t]);
+            pairs += static_cast<double>(weights[t].entries.size());
+        }
+    }
+    void blendAll() {
+        const auto shade = [&](Owner owner, glm::dvec2 sample, std::span<const glm::dvec2>) {
+            if (owner == kBackground) return Shade{options.background, 0.0};
+            if (!plan.constant.empty() && plan.constant[owner]) return *plan.constant[owner];
+            return shading->closest(owner, sample);
+        };
+        for (const WeightTile& tile : weights) blend(tile, glm::dvec2(0.0), shade, image);
     }
 };
 
-void benchGather(benchmark::State& state, const std::string& scene) {
-    Prepared prepared(scene, "box");
-    for (auto _ : state)
-        benchmark::DoNotOptimize(edgewise::gather(prepared.screen, *prepared.grid).ids.data());
-    state.counters["pairs"] = static_cast<double>(prepared.lists.ids.size());
+void benchBlend(benchmark::State& state, const std::string& name, const std::string& filter) {
+    Weighed weighed(name, filter);
+    for (auto _ : state) {
+        weighed.blendAll();
+        benchmark::DoNotOptimize(weighed.image.rgba.data());
+    }
+    countNanoseconds(state, "pair", weighed.pairs);
 }
 
-void benchVisibility(benchmark::State& state, const std::string& scene) {
-    Prepared prepared(scene, "box");
-    for (auto _ : state) benchmark::DoNotOptimize(prepared.visible().segments.data());
-    state.counters["segments"] = static_cast<double>(prepared.map.segments.size());
-}
-
-/// On one thread.
-void benchWeights(benchmark::State& state, const std::string& scene, const std::string& filter) {
-    Prepared prepared(scene, filter);
-    WeightWorker worker(prepared.filter, prepared.plan.weights);
-    WeightTile out;
-    const IdLists& lists = prepared.tiles.segments;
-    for (auto _ : state)
-        for (std::size_t t = 0; t < prepared.tiles.boxes.size(); ++t) {
-            const std::size_t count = lists.offsets[t + 1] - lists.offsets[t];
-            worker.run(prepared.map, std::span(lists.ids).subspan(lists.offsets[t], count),
-                       prepared.plan.classes, prepared.tiles.boxes[t], glm::dvec2(0.0), out);
-            benchmark::DoNotOptimize(out.entries.data());
-        }
-    const auto terms = static_cast<double>(worker.terms());
-    state.counters["ns_per_term"] =
-        benchmark::Counter(terms * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters["terms"] = terms / static_cast<double>(state.iterations());
+void benchWrite(benchmark::State& state, const std::string& name, ImageFormat format) {
+    Weighed weighed(name, "box");
+    weighed.blendAll();
+    WriteOptions options;
+    options.width = options.height = kFilmPx;
+    for (auto _ : state) benchmark::DoNotOptimize(encodeImage(weighed.image, format, options).data());
+    countNanoseconds(state, "pixel", static_cast<double>(kFilmPx) * kFilmPx);
 }
 
 int registerAll() {
     for (const std::string& scene : std::vector<std::string>{"torus-20k", "random-2k"}) {
-        const auto add = [&](const std::string& name, auto&& body) {
-            benchmark::RegisterBenchmark((name + "/" + scene).c_str(), body)
-                ->Unit(benchmark::kMillisecond)
-                ->UseRealTime();
+        const auto add = [&](const std::string& name, void (*body)(benchmark::State&, const std::string&)) {
+            registerBench(name + "/" + scene, [=](benchmark::State& state) { body(state, scene); });
         };
-        add("gather", [=](benchmark::State& state) { benchGather(state, scene); });
-        add("visibility", [=](benchmark::State& state) { benchVisibility(state, scene); });
-        for (const std::string& filter : std::vector<std::string>{"box", "gaussian"})
-            add("weights/" + filter, [=](benchmark::State& state) { benchWeights(state, scene, filter); });
+        add("load_gltf", benchLoad), add("project", benchProject), add("plan", benchPlan);
+        add("gather", benchGather), add("visibility", benchVisibility), add("tiles", benchSegmentTiles);
+        for (const std::string& filter : std::vector<std::string>{"box", "gaussian"}) {
+            registerBench("weights/" + filter + "/" + scene,
+                          [=](benchmark::State& state) { benchWeights(state, scene, filter); });
+            registerBench("blend/" + filter + "/" + scene,
+                          [=](benchmark::State& state) { benchBlend(state, scene, filter); });
+        }
+        registerBench("write_image/exr/" + scene,
+                      [=](benchmark::State& state) { benchWrite(state, scene, ImageFormat::kExr); });
+        registerBench("write_image/png/" + scene,
+                      [=](benchmark::State& state) { benchWrite(state, scene, ImageFormat::kPng); });
     }
     return 0;
 }

@@ -1,6 +1,8 @@
 // The papers' figures as a user makes them.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "pipeline/read_image.h"
 #include "tests/cli/run_program.h"
 
@@ -33,10 +35,40 @@ TEST(FigureCommand, FilterStudyWritesItsFiles) {
     }
 }
 
+TEST(FigureCommand, PerformanceWritesItsFiles) {
+    const TemporaryFolder folder;
+    const ProgramRun done = runProgram({"figure", "performance", "--quick", "-o", "out"}, folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    const auto own = folder.path() / "out" / "performance";
+    for (const char* name :
+         {"report.html", "results.csv", "bars.csv", "growth.csv", "stages.csv", "table.tex",
+          "pareto-random-2k.svg", "pareto-random-2k.pdf", "pareto-random-2k-Gaussian-R-2.pdf",
+          "growth-triangles.svg", "growth-triangles-torus.pdf", "growth-resolution.pdf", "stages.pdf"})
+        EXPECT_FALSE(readFile(own / name).empty()) << name;
+    const auto json = nlohmann::json::parse(readFile(own / "results.json"));
+    EXPECT_GT(json.at("bytes_per_second"), 0.0);
+    ASSERT_EQ(json.at("scenes").size(), 2u);
+    for (const auto& scene : json.at("scenes")) {
+        const auto& nsaa = scene.at("rows").at(0);
+        EXPECT_EQ(nsaa.at("method"), "nsaa");
+        EXPECT_EQ(nsaa.at("error").at("max"), 0.0);  // it is the reference
+        EXPECT_GT(nsaa.at("counts").at("terms"), 0);
+        EXPECT_EQ(scene.at("ideals").size(), 6u);  // every stage
+    }
+    for (const auto& series : json.at("growth")) {
+        EXPECT_EQ(series.at("points").size(), 3u);
+        EXPECT_FALSE(series.at("fits").at("total").is_null());
+    }
+    // a line a method and scene, and a header
+    EXPECT_EQ(lines(readFile(own / "results.csv")).size(), 1 + 2 * json.at("scenes").at(0).at("rows").size());
+}
+
 TEST(FigureCommand, ListsItsNames) {
     const ProgramRun run = runProgram({"figures"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_NE(run.out.find("filter-study: "), std::string::npos);
+    for (const char* name : {"filter-study: ", "performance: "})
+        EXPECT_NE(run.out.find(name), std::string::npos) << name;
 }
 
 TEST(FigureCommand, WrongOnesAreOneLineAndLeaveNothing) {
