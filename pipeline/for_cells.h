@@ -17,10 +17,14 @@ void forCellsOf(const ScreenTriangle& t, const CellGrid& grid, Visit&& visit) {
     const auto [c0, c1] = f64::cellSpan(x0, x1, grid.px.x0, grid.columns);
     const auto [r0, r1] = f64::cellSpan(y0, y1, grid.px.y0, grid.rows);
     const bool single = c0 == c1 && r0 == r1;
+    const auto meets = [&](const Cell& cell) {
+        return f64::cellOverlap(p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y, cell.min.x, cell.min.y,
+                                cell.max.x, cell.max.y) != f64::kMisses;
+    };
     for (int row = r0; row <= r1; ++row) {
         for (int column = c0; column <= c1; ++column) {
             const std::size_t i = grid.index(column, row);
-            if (single || overlap(t, grid.cell(i)).meets) visit(i);
+            if (single || meets(grid.cell(i))) visit(i);
         }
     }
 }

@@ -115,6 +115,7 @@ void NsaaFrame::renderBand(NsaaStages& stages, const VisibleMap& map, const Pixe
 
 void NsaaFrame::reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
                             Offsets offsets, PixelReport& out) const {
+    Shading::Memo memo;
     requireShadable(layers, sample - offset());
     const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
     const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
@@ -122,31 +123,32 @@ void NsaaFrame::reportOwner(std::span<const Owner> layers, FixedWeight fixed, gl
     };
     const auto shade = [&](Owner o) {
         return offsets.size() > 1 ? shading.mean(o, sample, offsets)
-                                  : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0]);
+                                  : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0], memo);
     };
     out.background += weight * throughLayers(layers, shade, add);
 }
 
-Shade NsaaFrame::shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
+Shade NsaaFrame::shadeTriangle(Owner owner, glm::dvec2 sample_px, Shading::Memo& memo) const {
     if (!plan.constant.empty() && plan.constant[owner]) return *plan.constant[owner];
-    return shading.closest(owner, sample_px);
+    return shading.closest(owner, sample_px, memo);
 }
 
-Shade NsaaFrame::shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+Shade NsaaFrame::shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px, Shading::Memo& memo) const {
     requireShadable(layers, sample_px - offset());
     return composite(
-        layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in.options.background);
+        layers, [&](Owner o) { return shadeTriangle(o, sample_px, memo); }, in.options.background);
 }
 
-Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets,
+                       Shading::Memo& memo) const {
     const auto constant = [&](Owner o) {
         return o == kBackground || (!plan.constant.empty() && plan.constant[o]);
     };
     if (offsets.empty() || std::all_of(layers.begin(), layers.end(), constant))
-        return shadeAt(layers, sample_px);
+        return shadeAt(layers, sample_px, memo);
     Shade sum{glm::dvec3(0.0), 0.0};
     for (const glm::dvec2& offset : offsets) {
-        const Shade one = shadeAt(layers, sample_px + offset);
+        const Shade one = shadeAt(layers, sample_px + offset, memo);
         sum.color += one.color, sum.alpha += one.alpha;
     }
     const auto count = static_cast<double>(offsets.size());
@@ -154,9 +156,10 @@ Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offs
 }
 
 void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+    Shading::Memo& memo = memos_.local();
     blend(
         tile, offset(),
-        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at); },
+        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at, memo); },
         result.image);
 }
 

@@ -2,6 +2,8 @@
 // result.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <functional>
 #include <map>
 #include <optional>
@@ -67,7 +69,11 @@ class NsaaFrame {
     glm::dvec2 offset() const { return in.film.debug_offset_px; }
 
     /// The mean of whole stacks: their layers' opacities belong together.
-    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const;
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets,
+                Shading::Memo& memo) const;
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+        return shade(layers, sample_px, offsets, memos_.local());
+    }
     /// Blends the tile into the image.
     void blendTile(const WeightTile& tile, const LayerStacks& stacks);
     void bookSeconds(const std::string& name, double seconds);
@@ -91,10 +97,12 @@ class NsaaFrame {
     void renderBand(NsaaStages& stages, const VisibleMap& map, const PixelBox& band);
     void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const;
-    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const;
-    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const;
+    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px, Shading::Memo& memo) const;
+    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px, Shading::Memo& memo) const;
     std::size_t residentBytes() const;
     void fillCounts(std::size_t bands);
+
+    mutable tbb::enumerable_thread_specific<Shading::Memo> memos_;
 };
 
 /// Says how far the picture is where it is made in several bands.
