@@ -100,10 +100,45 @@ void Shading::placeNormals(Surface& surface) const {
 
 bool Shading::isMapped(const Surface& surface) const {
     const Material& m = *surface.material;
-    if (mapVaries(surface, m.base_color_map)) return true;
-    return !m.unlit && (mapVaries(surface, m.metallic_roughness_map) || mapVaries(surface, m.occlusion_map) ||
-                        mapVaries(surface, m.emissive_map) ||
-                        mapVaries(surface, m.normal_map, TexelKind::kNormal));
+    if (usesFootprint(surface, m.base_color_map)) return true;
+    return !m.unlit && (usesFootprint(surface, m.metallic_roughness_map) ||
+                        usesFootprint(surface, m.occlusion_map) || usesFootprint(surface, m.emissive_map) ||
+                        usesFootprint(surface, m.normal_map, TexelKind::kNormal));
+}
+
+/// Without mip levels, and with one filter for near and far, the footprint decides nothing.
+bool Shading::usesFootprint(const Surface& surface, const TextureUse& use, TexelKind kind) const {
+    if (!mapVaries(surface, use, kind)) return false;
+    const Texture& texture = scene_.textures[use.texture];
+    return texture.mip || texture.mag != texture.min;
+}
+
+/// An unlit surface whose corners lie well inside one texel that is taken as it is: all of it has one colour.
+/// Barycentrics and the map point are rounded some ten times; the margin allows for a hundred.
+bool Shading::isOneTexel(const Surface& surface) const {
+    const Material& material = *surface.material;
+    const TextureUse& use = material.base_color_map;
+    if (!material.unlit || !surface.geometry->color.empty() || !mapVaries(surface, use)) return false;
+    const Texture& texture = scene_.textures[use.texture];
+    if (texture.mip || texture.mag != TexelFilter::kNearest || texture.min != TexelFilter::kNearest)
+        return false;
+    const Image& image = pyramidOf(surface, use)->level(0);
+    const auto& uv = surface.geometry->uv[use.uv];
+    const glm::dvec2 size(image.width, image.height);
+    glm::dvec2 largest(0.0), texel;
+    for (const std::uint32_t v : surface.vertex) largest = glm::max(largest, glm::abs(uv[v]));
+    for (int axis = 0; axis < 2; ++axis) {
+        const auto& m = use.uv_from_vertex;
+        const double terms =
+            std::abs(m[0][axis]) * largest.x + std::abs(m[1][axis]) * largest.y + std::abs(m[2][axis]) + 2.0;
+        const double margin = 100 * 0x1p-53 * terms * size[axis];
+        for (int k = 0; k < 3; ++k) {
+            const double x = mapPoint(use, uv[surface.vertex[k]])[axis] * size[axis], whole = std::floor(x);
+            if (k == 0) texel[axis] = whole;
+            if (whole != texel[axis] || !(x - whole > margin && whole + 1.0 - x > margin)) return false;
+        }
+    }
+    return true;
 }
 
 /// Where nothing asks for the footprint, its divisions are left out.
@@ -351,6 +386,8 @@ Shade Shading::closest(Owner owner, glm::dvec2 sample_px, Memo& memo) const {
         slot.surface = surfaceOf(owner);
         slot.constant = constant(slot.surface);
         if (!slot.constant) placeCorners(slot.surface);
+        if (!slot.constant && isOneTexel(slot.surface))
+            slot.constant = shadeClosest(slot.surface, owner, sample_px);
         slot.owner = owner;
     }
     return slot.constant ? *slot.constant : shadeClosest(slot.surface, owner, sample_px);

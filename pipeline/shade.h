@@ -49,8 +49,8 @@ class Shading {
     /// At the owner's point nearest to the sample on the screen (the near-clipped triangle, occluded or not).
     Shade closest(Owner owner, glm::dvec2 sample_px) const;
 
-    /// The same, bit for bit; what does not depend on the sample is looked up in `memo`, which is one thread's
-    /// and this Shading's.
+    /// The same, bit for bit; what does not depend on the sample is looked up in `memo`, which is one
+    /// thread's and this Shading's.
     Shade closest(Owner owner, glm::dvec2 sample_px, Memo& memo) const;
 
     /// At a point that lies on the owner.
@@ -88,7 +88,7 @@ class Shading {
         std::array<std::uint32_t, 3> vertex{};
         bool back_facing = false;
         std::uint32_t plane = 0;
-        bool mapped = false;  ///< some map varies on it: footprints count
+        bool mapped = false;  ///< some map asks for the footprint
         std::array<glm::dvec3, 3> p_eye{}, normal_eye{};
     };
     using Location = f64::SurfacePoint;
@@ -96,6 +96,9 @@ class Shading {
     void placeCorners(Surface& surface) const;
     void placeNormals(Surface& surface) const;
     bool isMapped(const Surface& surface) const;
+    bool usesFootprint(const Surface& surface, const TextureUse& use,
+                       TexelKind kind = TexelKind::kValue) const;
+    bool isOneTexel(const Surface& surface) const;
     Location locate(const Surface& surface, glm::dvec2 image_plane) const;
     glm::dvec3 cornerEye(const Surface& surface, int corner) const;
     glm::dvec3 flatNormal(const Surface& surface) const;
@@ -139,7 +142,8 @@ class Shading::Memo {
 
   private:
     friend class Shading;
-    static constexpr std::size_t kSlots = 256;  ///< about what a row of a tile of weights meets; fits a L2 cache
+    static constexpr std::size_t kSlots =
+        256;  ///< about what a row of a tile of weights meets; fits a L2 cache
     struct Slot {
         Owner owner = kBackground;
         Surface surface;

@@ -183,7 +183,8 @@ Bands NsaaFrame::cutIntoBands(const PixelBox& crop) {
     in.progress.stage("gather", 0);
     const CellGrid grid = cellsAround(crop, offset(), in.filter);
     requireLattice(grid, in.options.memory_mib << 20);
-    const IdLists lists = gather(screen, grid);
+    crop_lists_ = gather(screen, grid);
+    const IdLists& lists = *crop_lists_;
     counts["cell_triangle_pairs"] = lists.ids.size();
     const std::size_t limit = in.options.memory_mib << 20;
     if (residentBytes() >= limit)
@@ -191,6 +192,12 @@ Bands NsaaFrame::cutIntoBands(const PixelBox& crop) {
                                                    (residentBytes() >> 20) + 1));
     watch.book("gather", result.stages);
     return Bands(crop, grid, lists, reachOf(in.filter), offset(), limit - residentBytes());
+}
+
+IdLists NsaaFrame::gatherOnHost(const CellGrid& grid) {
+    const std::optional<IdLists> known = std::exchange(crop_lists_, std::nullopt);
+    const bool whole = known && known->offsets.size() == grid.size() + 1;
+    return whole ? *std::move(known) : gather(screen, grid);
 }
 
 void NsaaFrame::fillCounts(std::size_t bands) {

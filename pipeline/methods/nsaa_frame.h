@@ -79,6 +79,10 @@ class NsaaFrame {
     void bookSeconds(const std::string& name, double seconds);
     /// Throws FailureError where --memory does not suffice.
     Bands cutIntoBands(const PixelBox& crop);
+    /// The triangles of the grid's cells, each list in ascending order.
+    IdLists gatherOnHost(const CellGrid& grid);
+    /// Where no host asks for them.
+    void dropLists() { crop_lists_.reset(); }
 
     const MethodInput& in;
     MethodResult result;
@@ -102,6 +106,7 @@ class NsaaFrame {
     std::size_t residentBytes() const;
     void fillCounts(std::size_t bands);
 
+    std::optional<IdLists> crop_lists_;  ///< what the bands were cut by, until a band is the whole crop
     mutable tbb::enumerable_thread_specific<Shading::Memo> memos_;
 };
 
