@@ -17,8 +17,8 @@ namespace {
 /// What is freed stays with the program: pages that are given back to the system and asked for again cost
 /// more than most stages do with them.
 void keepFreedMemory() {
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_MMAP_THRESHOLD, 1 << 25);
+    mallopt(M_TRIM_THRESHOLD, 1 << 28);
     mallopt(M_TOP_PAD, 1 << 24);
 }
 
