@@ -2,15 +2,17 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <tuple>
 
 #include "analytic/expansion.h"
 #include "pipeline/plane_key.h"
+#include "pipeline/scan.h"
 
 namespace edgewise {
 namespace {
@@ -98,6 +100,7 @@ void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begi
                     Candidate* out) {
     const Geometry& g = scene.geometry[geometry];
     std::vector<Corners> corners;
+    corners.reserve(end - begin);
     for (std::size_t t = begin; t < end; ++t)
         corners.push_back(fileCorners(g, static_cast<std::uint32_t>(t)));
     const auto keys = planeKeys(corners);
@@ -108,7 +111,39 @@ void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begi
     }
 }
 
-std::vector<Candidate> sortedCandidates(const Scene& scene) {
+/// Those of one plane side by side: dealt into buckets by their hash, and sorted there, where they fit a
+/// cache.
+std::vector<Candidate> grouped(const std::vector<Candidate>& all) {
+    const std::size_t buckets = std::bit_ceil(all.size() / 64 + 1);
+    const auto bucketOf = [&](const Candidate& c) {
+        const std::uint64_t place = std::uint64_t{c.node} << 32 | c.instance;
+        return ((c.key ^ place * 0x9e3779b97f4a7c15u) * 0xd6e8feb86659fd93u >> 32) & (buckets - 1);
+    };
+    std::vector<std::atomic<std::uint32_t>> histogram(buckets);
+    const auto forAll = [&](const auto& visit) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), 4096), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                if (all[i].geometry != kNone) visit(all[i], histogram[bucketOf(all[i])]);
+        });
+    };
+    forAll([](const Candidate&, auto& count) { count.fetch_add(1, std::memory_order_relaxed); });
+    std::vector<std::uint32_t> counts(buckets);
+    for (std::size_t b = 0; b < buckets; ++b) counts[b] = histogram[b].load(std::memory_order_relaxed);
+    const std::vector<std::size_t> first = offsetsFromCounts(counts);
+    for (std::size_t b = 0; b < buckets; ++b)
+        histogram[b].store(static_cast<std::uint32_t>(first[b]), std::memory_order_relaxed);
+    std::vector<Candidate> out(first.back());
+    forAll([&](const Candidate& c, auto& next) { out[next.fetch_add(1, std::memory_order_relaxed)] = c; });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets, 64), [&](const auto& range) {
+        for (std::size_t b = range.begin(); b < range.end(); ++b)
+            std::sort(out.begin() + static_cast<std::ptrdiff_t>(first[b]),
+                      out.begin() + static_cast<std::ptrdiff_t>(first[b + 1]),
+                      [](const Candidate& a, const Candidate& c) { return a.order() < c.order(); });
+    });
+    return out;
+}
+
+std::vector<Candidate> groupedCandidates(const Scene& scene) {
     std::vector<Candidate> all(scene.triangle_count);
     for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
         const Geometry& geometry = scene.geometry[g];
@@ -118,14 +153,13 @@ std::vector<Candidate> sortedCandidates(const Scene& scene) {
                                              all.data() + geometry.first_triangle + range.begin());
                           });
     }
-    std::erase_if(all, [](const Candidate& c) { return c.geometry == kNone; });
-    tbb::parallel_sort(all, [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
-    return all;
+    return grouped(all);
 }
 
 /// For each candidate of a run of equal keys the first triangle of its plane. One plane a run, unless keys
 /// collide.
 void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<std::uint32_t>& leader_of) {
+    if (run.size() == 1) return void(leader_of[run[0].index] = run[0].index);
     std::vector<std::pair<ExactPlane, std::uint32_t>> planes;
     for (const Candidate& candidate : run) {
         const Corners p = fileCorners(scene.geometry[candidate.geometry], candidate.triangle);
@@ -135,7 +169,7 @@ void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<st
             leader_of[candidate.index] = found->second;
         } else {
             leader_of[candidate.index] = candidate.index;
-            if (run.size() > 1) planes.emplace_back(ExactPlane(p), candidate.index);
+            planes.emplace_back(ExactPlane(p), candidate.index);
         }
     }
 }
@@ -214,7 +248,7 @@ CoplanarGroups findCoplanar(const Scene& scene) {
     CoplanarGroups groups;
     groups.plane_of.assign(scene.triangle_count, kNone);
     groups.reversed.assign(scene.triangle_count, 0);
-    choosePlanes(scene, findLeaders(scene, sortedCandidates(scene)), groups);
+    choosePlanes(scene, findLeaders(scene, groupedCandidates(scene)), groups);
     std::vector<int> axis(groups.planes.size());
     formNormals(scene, groups, axis);
     findReversed(scene, axis, groups);

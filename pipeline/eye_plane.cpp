@@ -51,13 +51,21 @@ DdVector transform(const glm::dmat4& m, const DdVector& p) {
     return moved;
 }
 
+/// Of each geometry that has an affine map from the file.
+std::vector<DdMatrix> fileCofactors(const Scene& scene) {
+    std::vector<DdMatrix> all(scene.geometry.size());
+    for (std::size_t g = 0; g < all.size(); ++g)
+        if (const auto& map = scene.geometry[g].world_from_file) all[g] = cofactor(linearPart(*map));
+    return all;
+}
+
 /// The plane in the world: through the node's affine map from the file, or through the world's own vertices.
-EyePlane worldPlane(const Geometry& geometry, const FilePlane& plane) {
+EyePlane worldPlane(const Geometry& geometry, const DdMatrix& cofactors, const FilePlane& plane) {
     const auto& corner = geometry.triangles[plane.triangle];
     EyePlane world;
     DdVector point;
     if (geometry.world_from_file) {
-        world.n = multiply(cofactor(linearPart(*geometry.world_from_file)), plane.normal);
+        world.n = multiply(cofactors, plane.normal);
         point = transform(*geometry.world_from_file, widen(glm::dvec3(geometry.position_file[corner[0]])));
     } else {
         point = widen(geometry.position_world[corner[0]]);
@@ -111,11 +119,13 @@ glm::dvec3 EyePlane::unitNormal(bool perspective) const {
 std::vector<EyePlane> makeEyePlanes(const Scene& scene, const CoplanarGroups& groups,
                                     const glm::dmat4& camera_from_world) {
     const CameraPlaneMap to_eye(camera_from_world);
+    const std::vector<DdMatrix> cofactors = fileCofactors(scene);
     std::vector<EyePlane> planes(groups.planes.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes.size(), 1024), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const FilePlane& file = groups.planes[i];
-            planes[i] = to_eye.apply(worldPlane(scene.geometry[file.geometry], file));
+            planes[i] =
+                to_eye.apply(worldPlane(scene.geometry[file.geometry], cofactors[file.geometry], file));
         }
     });
     return planes;

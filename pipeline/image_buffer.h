@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <glm/vec4.hpp>
-#include <vector>
 
 #include "pipeline/aov_image.h"
 #include "pipeline/film.h"
+#include "pipeline/huge_pages.h"
 
 namespace edgewise {
 
@@ -14,16 +14,14 @@ namespace edgewise {
 /// owners' weights, which may be negative with negative lobes.
 struct ImageBuffer {
     PixelBox box;
-    std::vector<glm::dvec4> rgba;
-    std::vector<float>
+    ZeroedVector<glm::dvec4> rgba;
+    ZeroedVector<float>
         edge;      ///< 1 where the filter's support holds visible owners that differ by more than 1/255
     AovImage aov;  ///< empty but for --aov
 
     ImageBuffer() = default;
     explicit ImageBuffer(const PixelBox& pixels)
-        : box(pixels),
-          rgba(static_cast<std::size_t>(box.width()) * box.height(), glm::dvec4(0.0)),
-          edge(rgba.size(), 0.0f) {}
+        : box(pixels), rgba(static_cast<std::size_t>(box.width()) * box.height()), edge(rgba.size()) {}
 
     std::size_t bytes() const {
         return rgba.size() * sizeof(glm::dvec4) + edge.size() * sizeof(float) + aov.bytes();

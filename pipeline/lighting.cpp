@@ -45,10 +45,13 @@ Lighting::Lighting(const Scene& scene, const ResolvedCamera& camera)
     for (const Light& light : scene.lights) lights_.push_back(inEyeSpace(light, camera.camera_from_world));
     const auto directional = [](const EyeLight& l) { return l.type == f64::kDirectionalLight; };
     uniform_ = rig_ || (!perspective_ && std::all_of(lights_.begin(), lights_.end(), directional));
-    if (!rig_) return;
-    for (const RigLight& lamp : {kRigKey, kRigFill})
-        lights_.push_back({f64::kDirectionalLight, glm::dvec3(0.0), -lamp.towards,
-                           glm::dvec3(M_PI * lamp.intensity), 0.0, 0.0, 0.0});
+    if (rig_)
+        for (const RigLight& lamp : {kRigKey, kRigFill})
+            lights_.push_back({f64::kDirectionalLight, glm::dvec3(0.0), -lamp.towards,
+                               glm::dvec3(M_PI * lamp.intensity), 0.0, 0.0, 0.0});
+    if (!uniform_) return;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        halfways_.push_back(f64::halfwayOf(view(glm::dvec3(0.0)), arrival(i, glm::dvec3(0.0)).towards));
 }
 
 }  // namespace edgewise

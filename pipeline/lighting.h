@@ -52,12 +52,17 @@ class Lighting {
     Arrival arrival(std::size_t i, const glm::dvec3& p_eye) const {
         return f64::arrivalAt(lights_[i], p_eye);
     }
+    /// Between the view and a light that arrives from `towards`.
+    f64::Halfway halfway(std::size_t i, const glm::dvec3& view, const glm::dvec3& towards) const {
+        return halfways_.empty() ? f64::halfwayOf(view, towards) : halfways_[i];
+    }
     const std::vector<EyeLight>& lights() const { return lights_; }
 
   private:
     static EyeLight inEyeSpace(const Light& light, const glm::dmat4& camera_from_world);
 
     std::vector<EyeLight> lights_;
+    std::vector<f64::Halfway> halfways_;  ///< by light, where they are the same everywhere
     bool rig_, perspective_, uniform_;
 };
 

@@ -1,33 +1,64 @@
 #include "pipeline/plan.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <bit>
-#include <unordered_map>
+#include <functional>
 
 namespace edgewise {
 namespace {
 
-struct ShadeHash {
-    std::size_t operator()(const Shade& s) const {
+/// A hash table of the owners whose constant shades were seen first.
+class FirstOfShade {
+  public:
+    FirstOfShade(const std::vector<std::optional<Shade>>& constant, std::size_t count)
+        : constant_(constant), slots_(std::bit_ceil(2 * count + 1), kFree) {}
+
+    Owner of(Owner owner) {
+        std::size_t slot = hash(*constant_[owner]) & (slots_.size() - 1);
+        for (; slots_[slot] != kFree; slot = (slot + 1) & (slots_.size() - 1))
+            if (*constant_[slots_[slot]] == *constant_[owner]) return slots_[slot];
+        ++size_;
+        return slots_[slot] = owner;
+    }
+    std::size_t size() const { return size_; }
+
+  private:
+    static constexpr Owner kFree = kBackground;
+
+    static std::size_t hash(const Shade& s) {
         std::uint64_t h = 0;
         for (const double value : {s.color.r, s.color.g, s.color.b, s.alpha})
             h = (h ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 31;
         return h;
     }
+
+    const std::vector<std::optional<Shade>>& constant_;
+    std::vector<Owner> slots_;
+    std::size_t size_ = 0;
 };
 
 /// Owners of one constant colour are represented by the lowest of them.
 OwnerClasses classesOf(const std::vector<std::optional<Shade>>& constant, std::size_t& merged,
                        std::size_t& classes) {
     OwnerClasses out;
-    std::unordered_map<Shade, Owner, ShadeHash> first;
+    merged = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, constant.size(), 4096), std::size_t{0},
+        [&](const auto& range, std::size_t sum) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) sum += constant[i].has_value();
+            return sum;
+        },
+        std::plus<>());
+    if (merged == 0) return out;
+    FirstOfShade first(constant, merged);
     out.representative.resize(constant.size());
     for (std::size_t i = 0; i < constant.size(); ++i) {
         const auto owner = static_cast<Owner>(i);
-        out.representative[i] = constant[i] ? first.try_emplace(*constant[i], owner).first->second : owner;
-        merged += constant[i].has_value();
+        out.representative[i] = constant[i] ? first.of(owner) : owner;
     }
     classes = first.size();
     if (classes == merged) out.representative.clear();

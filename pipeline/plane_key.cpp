@@ -1,6 +1,6 @@
 #include "pipeline/plane_key.h"
 
-#include <cmath>
+#include <bit>
 
 namespace edgewise {
 namespace {
@@ -35,12 +35,14 @@ std::uint64_t inverse(std::uint64_t a) {
 }
 
 std::uint64_t residue(float value) {
-    int exponent = 0;
-    const double mantissa = std::ldexp(std::frexp(value, &exponent), 24);
-    const auto magnitude = static_cast<std::uint64_t>(std::fabs(mantissa));
-    const int turn = ((exponent - 24) % kBits + kBits) % kBits;
+    // The value is +-magnitude 2^(exponent - 150), by the fields of IEEE 754's binary32.
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t field = bits >> 23 & 0xffu, fraction = bits & 0x7fffffu;
+    const std::uint64_t magnitude = field == 0 ? fraction : fraction | 0x800000u;
+    const int exponent = field == 0 ? 1 : static_cast<int>(field);
+    const int turn = (exponent - 150 + 3 * kBits) % kBits;
     const std::uint64_t turned = ((magnitude << turn) & kPrime) | (turn ? magnitude >> (kBits - turn) : 0);
-    return mantissa < 0 && turned != 0 ? kPrime - turned : turned;
+    return (bits >> 31) != 0 && turned != 0 ? kPrime - turned : turned;
 }
 
 using Vector = std::array<std::uint64_t, 3>;
@@ -90,6 +92,7 @@ std::uint64_t keyOf(const Coefficients& plane, std::uint64_t inverse_pivot) {
 std::vector<std::optional<std::uint64_t>> planeKeys(std::span<const std::array<glm::vec3, 3>> triangles) {
     std::vector<Coefficients> planes;
     std::vector<std::uint64_t> product_before;
+    planes.reserve(triangles.size()), product_before.reserve(triangles.size());
     std::uint64_t product = 1;
     for (const auto& triangle : triangles) {
         planes.push_back(coefficients(triangle));

@@ -8,15 +8,6 @@
 
 namespace edgewise {
 
-/// An owner's triangle, in eye space.
-struct Shading::Surface {
-    const Geometry* geometry;
-    const Material* material;
-    std::array<std::uint32_t, 3> vertex;
-    bool back_facing;
-    std::uint32_t plane;
-};
-
 namespace {
 
 bool inside(const ScreenTriangle& piece, glm::dvec2 s) {
@@ -87,13 +78,75 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
 Shading::Surface Shading::surfaceOf(Owner owner) const {
     const TriangleRef at = findTriangle(scene_, owner);
     const Geometry& geometry = scene_.geometry[at.geometry];
-    return {&geometry, &scene_.materials[geometry.material], geometry.triangles[at.triangle],
-            pieces_.back_facing[owner] != 0, screen_.triangles[pieces_.first[owner]].plane};
+    Surface surface;
+    surface.geometry = &geometry;
+    surface.material = &scene_.materials[geometry.material];
+    surface.vertex = geometry.triangles[at.triangle];
+    surface.back_facing = pieces_.back_facing[owner] != 0;
+    surface.plane = screen_.triangles[pieces_.first[owner]].plane;
+    return surface;
 }
 
+void Shading::placeCorners(Surface& surface) const {
+    for (int k = 0; k < 3; ++k) surface.p_eye[k] = cornerEye(surface, k);
+    if (!surface.material->unlit) placeNormals(surface);
+    surface.mapped = isMapped(surface);
+}
+
+void Shading::placeNormals(Surface& surface) const {
+    if (surface.geometry->normal_world.empty()) return;
+    for (int k = 0; k < 3; ++k) surface.normal_eye[k] = cornerNormal(surface, k);
+}
+
+bool Shading::isMapped(const Surface& surface) const {
+    const Material& m = *surface.material;
+    if (usesFootprint(surface, m.base_color_map)) return true;
+    return !m.unlit && (usesFootprint(surface, m.metallic_roughness_map) ||
+                        usesFootprint(surface, m.occlusion_map) || usesFootprint(surface, m.emissive_map) ||
+                        usesFootprint(surface, m.normal_map, TexelKind::kNormal));
+}
+
+/// Without mip levels, and with one filter for near and far, the footprint decides nothing.
+bool Shading::usesFootprint(const Surface& surface, const TextureUse& use, TexelKind kind) const {
+    if (!mapVaries(surface, use, kind)) return false;
+    const Texture& texture = scene_.textures[use.texture];
+    return texture.mip || texture.mag != texture.min;
+}
+
+/// An unlit surface whose corners lie well inside one texel that is taken as it is: all of it has one colour.
+/// Barycentrics and the map point are rounded some ten times; the margin allows for a hundred.
+bool Shading::isOneTexel(const Surface& surface) const {
+    const Material& material = *surface.material;
+    const TextureUse& use = material.base_color_map;
+    if (!material.unlit || !surface.geometry->color.empty() || !mapVaries(surface, use)) return false;
+    const Texture& texture = scene_.textures[use.texture];
+    if (texture.mip || texture.mag != TexelFilter::kNearest || texture.min != TexelFilter::kNearest)
+        return false;
+    const Image& image = pyramidOf(surface, use)->level(0);
+    const auto& uv = surface.geometry->uv[use.uv];
+    const glm::dvec2 size(image.width, image.height);
+    glm::dvec2 largest(0.0), texel;
+    for (const std::uint32_t v : surface.vertex) largest = glm::max(largest, glm::abs(uv[v]));
+    for (int axis = 0; axis < 2; ++axis) {
+        const auto& m = use.uv_from_vertex;
+        const double terms =
+            std::abs(m[0][axis]) * largest.x + std::abs(m[1][axis]) * largest.y + std::abs(m[2][axis]) + 2.0;
+        const double margin = 100 * 0x1p-53 * terms * size[axis];
+        for (int k = 0; k < 3; ++k) {
+            const double x = mapPoint(use, uv[surface.vertex[k]])[axis] * size[axis], whole = std::floor(x);
+            if (k == 0) texel[axis] = whole;
+            if (whole != texel[axis] || !(x - whole > margin && whole + 1.0 - x > margin)) return false;
+        }
+    }
+    return true;
+}
+
+/// Where nothing asks for the footprint, its divisions are left out.
 Shading::Location Shading::locate(const Surface& surface, glm::dvec2 uv) const {
-    return f64::surfacePointAt(cornerEye(surface, 0), cornerEye(surface, 1), cornerEye(surface, 2), uv,
-                               map_.perspective, map_.scale_px);
+    const auto& [a, b, c] = surface.p_eye;
+    if (surface.mapped) return f64::surfacePointAt(a, b, c, uv, map_.perspective, map_.scale_px);
+    const Location at = f64::surfacePointAt(a, b, c, uv, map_.perspective, map_.scale_px);
+    return {at.barycentric, glm::dvec3(0.0), glm::dvec3(0.0), at.p_eye};
 }
 
 glm::dvec3 Shading::cornerEye(const Surface& surface, int corner) const {
@@ -115,8 +168,8 @@ glm::dvec3 Shading::cornerNormal(const Surface& surface, int corner) const {
 
 glm::dvec3 Shading::vertexNormalAt(const Surface& surface, const glm::dvec3& w) const {
     if (surface.geometry->normal_world.empty()) return flatNormal(surface);
-    const auto normal = unit(cornerNormal(surface, 0) * w.x + cornerNormal(surface, 1) * w.y +
-                             cornerNormal(surface, 2) * w.z);
+    const auto& n = surface.normal_eye;
+    const auto normal = unit(n[0] * w.x + n[1] * w.y + n[2] * w.z);
     return normal.value_or(flatNormal(surface));
 }
 
@@ -134,7 +187,7 @@ std::optional<glm::dvec4> Shading::tangentAt(const Surface& surface, const Locat
     std::array<glm::dvec3, 3> p;
     std::array<glm::dvec2, 3> uv;
     for (int k = 0; k < 3; ++k) {
-        p[k] = cornerEye(surface, k);
+        p[k] = cornerEye(surface, k);  // a surface of one colour has no places
         uv[k] = mapPoint(surface.material->normal_map,
                          geometry.uv[surface.material->normal_map.uv][surface.vertex[k]]);
     }
@@ -222,7 +275,11 @@ glm::dvec3 Shading::litColor(const Surface& surface, const Location& at, const g
     for (std::size_t i = 0; i < lighting_.count(); ++i) {
         const Arrival light = lighting_.arrival(i, at.p_eye);
         const double cosine = glm::dot(n, light.towards);
-        if (cosine > 0.0) color += brdf(reflectance, n, v, light.towards) * (cosine * light.illuminance);
+        if (!(cosine > 0.0)) continue;
+        const glm::dvec3 share =
+            f64::reflectedShare(reflectance.base, reflectance.metallic, reflectance.roughness, n, v,
+                                light.towards, lighting_.halfway(i, v, light.towards));
+        color += share * (cosine * light.illuminance);
     }
     return color;
 }
@@ -267,13 +324,15 @@ bool Shading::varies(const Surface& surface) const {
            (material.emissive != glm::dvec3(0.0) && mapVaries(surface, material.emissive_map));
 }
 
-std::optional<Shade> Shading::constant(const Surface& surface) const {
+std::optional<Shade> Shading::constant(Surface& surface) const {
     if (varies(surface)) return std::nullopt;
+    if (!surface.material->unlit) placeNormals(surface);
     return shadeAt(surface, {{1.0, 0.0, 0.0}, {}, {}, glm::dvec3(0.0)});
 }
 
 std::optional<Shade> Shading::constant(Owner owner) const {
-    return constant(surfaceOf(owner));
+    Surface surface = surfaceOf(owner);
+    return constant(surface);
 }
 
 bool Shading::varies(Owner owner) const {
@@ -281,13 +340,17 @@ bool Shading::varies(Owner owner) const {
 }
 
 Shade Shading::atPoint(Owner owner, glm::dvec2 p_px) const {
-    const Surface surface = surfaceOf(owner);
+    Surface surface = surfaceOf(owner);
     if (const auto shade = constant(surface)) return *shade;
+    placeCorners(surface);
     return shadeAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
 }
 
 glm::dvec3 Shading::normal(Owner owner, glm::dvec2 p_px) const {
-    const Surface surface = surfaceOf(owner);
+    Surface surface = surfaceOf(owner);
+    placeCorners(surface);
+    placeNormals(surface);
+    surface.mapped = true;
     return normalAt(surface, locate(surface, map_.toImagePlane(p_px, glm::dvec2(0.0))));
 }
 
@@ -306,10 +369,28 @@ glm::dvec2 Shading::closestOffset(Owner owner, glm::dvec2 sample_px) const {
     return best;
 }
 
-Shade Shading::closest(Owner owner, glm::dvec2 sample_px) const {
-    const Surface surface = surfaceOf(owner);
-    if (const auto shade = constant(surface)) return *shade;
+Shade Shading::shadeClosest(const Surface& surface, Owner owner, glm::dvec2 sample_px) const {
     return shadeAt(surface, locate(surface, map_.toImagePlane(sample_px, closestOffset(owner, sample_px))));
+}
+
+Shade Shading::closest(Owner owner, glm::dvec2 sample_px) const {
+    Surface surface = surfaceOf(owner);
+    if (const auto shade = constant(surface)) return *shade;
+    placeCorners(surface);
+    return shadeClosest(surface, owner, sample_px);
+}
+
+Shade Shading::closest(Owner owner, glm::dvec2 sample_px, Memo& memo) const {
+    Memo::Slot& slot = memo.slots_[owner % Memo::kSlots];
+    if (slot.owner != owner) {
+        slot.surface = surfaceOf(owner);
+        slot.constant = constant(slot.surface);
+        if (!slot.constant) placeCorners(slot.surface);
+        if (!slot.constant && isOneTexel(slot.surface))
+            slot.constant = shadeClosest(slot.surface, owner, sample_px);
+        slot.owner = owner;
+    }
+    return slot.constant ? *slot.constant : shadeClosest(slot.surface, owner, sample_px);
 }
 
 Shade Shading::mean(Owner owner, glm::dvec2 sample_px, std::span<const glm::dvec2> offsets_px) const {

@@ -41,11 +41,17 @@ struct Shade {
 /// against v. Where u and v do not span the triangle the map is left out.
 class Shading {
   public:
+    class Memo;
+
     Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
             const ScreenPieces& pieces);
 
     /// At the owner's point nearest to the sample on the screen (the near-clipped triangle, occluded or not).
     Shade closest(Owner owner, glm::dvec2 sample_px) const;
+
+    /// The same, bit for bit; what does not depend on the sample is looked up in `memo`, which is one
+    /// thread's and this Shading's.
+    Shade closest(Owner owner, glm::dvec2 sample_px, Memo& memo) const;
 
     /// At a point that lies on the owner.
     Shade atPoint(Owner owner, glm::dvec2 p_px) const;
@@ -75,9 +81,24 @@ class Shading {
     }
 
   private:
-    struct Surface;
+    /// An owner's triangle; what follows `plane` holds once placeCorners() was there.
+    struct Surface {
+        const Geometry* geometry = nullptr;
+        const Material* material = nullptr;
+        std::array<std::uint32_t, 3> vertex{};
+        bool back_facing = false;
+        std::uint32_t plane = 0;
+        bool mapped = false;  ///< some map asks for the footprint
+        std::array<glm::dvec3, 3> p_eye{}, normal_eye{};
+    };
     using Location = f64::SurfacePoint;
     Surface surfaceOf(Owner owner) const;
+    void placeCorners(Surface& surface) const;
+    void placeNormals(Surface& surface) const;
+    bool isMapped(const Surface& surface) const;
+    bool usesFootprint(const Surface& surface, const TextureUse& use,
+                       TexelKind kind = TexelKind::kValue) const;
+    bool isOneTexel(const Surface& surface) const;
     Location locate(const Surface& surface, glm::dvec2 image_plane) const;
     glm::dvec3 cornerEye(const Surface& surface, int corner) const;
     glm::dvec3 flatNormal(const Surface& surface) const;
@@ -96,11 +117,12 @@ class Shading {
     double ambientAt(const Surface& surface, const Location& at) const;
     glm::dvec3 litColor(const Surface& surface, const Location& at, const glm::dvec3& base) const;
     Shade shadeAt(const Surface& surface, const Location& at) const;
+    Shade shadeClosest(const Surface& surface, Owner owner, glm::dvec2 sample_px) const;
     bool mapVaries(const Surface& surface, const TextureUse& use, TexelKind kind = TexelKind::kValue) const;
     bool baseVaries(const Surface& surface) const;
     bool normalVaries(const Surface& surface) const;
     bool varies(const Surface& surface) const;
-    std::optional<Shade> constant(const Surface& surface) const;
+    std::optional<Shade> constant(Surface& surface) const;
     double alphaOf(const Surface& surface, double base_alpha) const;
 
     const Scene& scene_;
@@ -111,6 +133,23 @@ class Shading {
     Lighting lighting_;
     using Pyramids = std::vector<std::optional<MipPyramid>>;
     Pyramids pyramids_, normal_pyramids_;  ///< by image; those that a material uses
+};
+
+/// The surfaces that a thread shaded last: neighbouring pixels ask for the same few.
+class Shading::Memo {
+  public:
+    Memo() : slots_(kSlots) {}
+
+  private:
+    friend class Shading;
+    static constexpr std::size_t kSlots =
+        256;  ///< about what a row of a tile of weights meets; fits a L2 cache
+    struct Slot {
+        Owner owner = kBackground;
+        Surface surface;
+        std::optional<Shade> constant;
+    };
+    std::vector<Slot> slots_;
 };
 
 }  // namespace edgewise

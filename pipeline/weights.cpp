@@ -111,18 +111,28 @@ WeightWorker::WeightWorker(const Prefilter& filter, const WeightOptions& options
       weights_(filter, options.precision),
       points_(filter, options.shading) {}
 
-void WeightWorker::collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
-                              const OwnerClasses& classes, double y) {
-    row_.clear();
-    const double reach = radius_ + kReachSlackPx;
+/// Each segment is read once a tile and noted in the rows that it comes near.
+void WeightWorker::collectRows(const VisibleMap& map, std::span<const std::uint32_t> segments,
+                               const OwnerClasses& classes, const PixelBox& box, double offset_y_px) {
+    const int height = box.height();
+    if (rows_.size() < static_cast<std::size_t>(height)) rows_.resize(static_cast<std::size_t>(height));
+    for (std::vector<Span>& row : rows_) row.clear();
+    const double reach = radius_ + kReachSlackPx, first_y = box.y0 + 0.5 + offset_y_px;
     for (const std::uint32_t id : segments) {
         const VisibleSegment& s = map.segments[id];
-        const glm::dvec2 a = rounded(s.a), b = rounded(s.b);
-        if (a.y > y + reach || b.y < y - reach) continue;
         const Owner left = classes.of(s.left), right = classes.of(s.right);
         if (left == right && options_.skip_cancelling) continue;
-        const auto [x0, x1] = spanWithin(a, b, y - reach, y + reach);
-        row_.push_back({id, left, right, x0 - reach, x1 + reach});
+        const glm::dvec2 a = rounded(s.a), b = rounded(s.b);
+        // A row more on either side, for rounding: the comparison below decides.
+        const double last = height - 1.0;
+        const int begin = static_cast<int>(std::clamp(std::floor(a.y - reach - first_y), 0.0, last));
+        const int end = static_cast<int>(std::clamp(std::ceil(b.y + reach - first_y), 0.0, last));
+        for (int row = begin; row <= end; ++row) {
+            const double y = first_y + row;
+            if (a.y > y + reach || b.y < y - reach) continue;
+            const auto [x0, x1] = spanWithin(a, b, y - reach, y + reach);
+            rows_[static_cast<std::size_t>(row)].push_back({id, left, right, x0 - reach, x1 + reach});
+        }
     }
 }
 
@@ -131,10 +141,10 @@ void WeightWorker::beginGroup(glm::dvec2 first, int count) {
     if (points_.active()) points_.begin(first, count);
 }
 
-void WeightWorker::runGroup(const VisibleMap& map, const OwnerClasses& classes, glm::dvec2 first, int row,
-                            int count, const Owner* base, WeightTile& out) {
+void WeightWorker::runGroup(const VisibleMap& map, const OwnerClasses& classes, std::span<const Span> spans,
+                            glm::dvec2 first, int row, int count, const Owner* base, WeightTile& out) {
     bool begun = false;
-    for (const Span& span : row_) {
+    for (const Span& span : spans) {
         if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
         if (!begun) beginGroup(first, count), begun = true;
         const VisibleSegment& s = map.segments[span.segment];
@@ -166,17 +176,17 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
     out.offset.assign(1, 0);
     out.entries.clear();
     out.points.clear();
+    collectRows(map, segments, classes, box, offset_px.y);
     Owner base[PixelWeights::kLanes];
     for (int y = box.y0; y < box.y1; ++y) {
         const double sample_y = y + 0.5 + offset_px.y;
-        collectRow(map, segments, classes, sample_y);
         for (int x = box.x0; x < box.x1; x += PixelWeights::kLanes) {
             const int count = std::min(PixelWeights::kLanes, box.x1 - x);
             const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
             const int row = y + static_cast<int>(offset_px.y);
             ownersAlongRow(map, row, first.x + radius_, count,
                            [&](int k, Owner o) { base[k] = classes.of(o); });
-            runGroup(map, classes, first, row, count, base, out);
+            runGroup(map, classes, rows_[static_cast<std::size_t>(y - box.y0)], first, row, count, base, out);
         }
     }
 }

@@ -64,17 +64,17 @@ class WeightWorker {
         Owner left, right;
         double x0, x1;  ///< of the part within reach of the row
     };
-    void collectRow(const VisibleMap& map, std::span<const std::uint32_t> segments,
-                    const OwnerClasses& classes, double y);
-    void runGroup(const VisibleMap& map, const OwnerClasses& classes, glm::dvec2 first, int row, int count,
-                  const Owner* base, WeightTile& out);
+    void collectRows(const VisibleMap& map, std::span<const std::uint32_t> segments,
+                     const OwnerClasses& classes, const PixelBox& box, double offset_y_px);
+    void runGroup(const VisibleMap& map, const OwnerClasses& classes, std::span<const Span> spans,
+                  glm::dvec2 first, int row, int count, const Owner* base, WeightTile& out);
     void beginGroup(glm::dvec2 first, int count);
 
     double radius_;
     WeightOptions options_;
     PixelWeights weights_;
     ShadingPointFinder points_;
-    std::vector<Span> row_;
+    std::vector<std::vector<Span>> rows_;  ///< of the tile, from its top
     std::uint64_t interior_pixels_ = 0;
 };
 

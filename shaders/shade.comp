@@ -244,7 +244,7 @@ precise dvec3 litColor(Look look, dvec3 p_eye) {
         Arrival light = arrivalAt(lightOf(i), p_eye);
         double cosine = inner(look.normal, light.towards);
         if (cosine > 0.0)
-            color += reflectedShare(base, look.metallic, look.roughness, look.normal, v, light.towards) *
+            color += reflectedShare(base, look.metallic, look.roughness, look.normal, v, light.towards, halfwayOf(v, light.towards)) *
                      (cosine * light.illuminance);
     }
     return color;

@@ -152,7 +152,7 @@ glm::dvec4 mixed(const EncodedPicture& encoded, const ImageBuffer& image, glm::i
 }
 
 void fxaaRow(const ImageBuffer& image, const EncodedPicture& encoded, const Texels<float>& luma,
-             const Steps& steps, int y, std::vector<glm::dvec4>& out) {
+             const Steps& steps, int y, ZeroedVector<glm::dvec4>& out) {
     for (int x = 0; x < luma.width(); ++x) {
         const Neighbourhood near(luma, x, y);
         const float contrast = near.contrast();
@@ -169,7 +169,7 @@ void applyFxaa(const Steps& steps, ImageBuffer& image, Progress& progress, std::
     Stopwatch watch;
     const EncodedPicture encoded = encodePicture(image);
     const Texels<float> luma = lumaOf(encoded, kLumaWeights);
-    std::vector<glm::dvec4> out = image.rgba;
+    auto out = image.rgba;
     forRows("fxaa", luma.height(), progress, [&](int y) { fxaaRow(image, encoded, luma, steps, y, out); });
     image.rgba = std::move(out);
     watch.book("fxaa", stages);

@@ -3,8 +3,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "pipeline/gather.h"
-
 namespace edgewise {
 
 /// One thread's scratch, and the time that its two stages took.
@@ -16,7 +14,7 @@ struct CpuStages::TileWorker {
 };
 
 VisibleMap CpuStages::visibleMap(NsaaFrame& frame, const CellGrid& grid) {
-    const IdLists lists = gather(frame.screen, grid);
+    const IdLists lists = frame.gatherOnHost(grid);
     frame.dump.gather(grid, lists);
     frame.watch.book("gather", frame.result.stages);
     VisibleMap map = visibility(frame.screen, grid, lists, frame.plan.visibility, frame.in.progress,

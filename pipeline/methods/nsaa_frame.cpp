@@ -115,6 +115,7 @@ void NsaaFrame::renderBand(NsaaStages& stages, const VisibleMap& map, const Pixe
 
 void NsaaFrame::reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample,
                             Offsets offsets, PixelReport& out) const {
+    Shading::Memo memo;
     requireShadable(layers, sample - offset());
     const double weight = std::ldexp(static_cast<double>(fixed), -kWeightBits);
     const auto add = [&](std::size_t k, double share, const glm::dvec3& color) {
@@ -122,31 +123,32 @@ void NsaaFrame::reportOwner(std::span<const Owner> layers, FixedWeight fixed, gl
     };
     const auto shade = [&](Owner o) {
         return offsets.size() > 1 ? shading.mean(o, sample, offsets)
-                                  : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0]);
+                                  : shadeTriangle(o, offsets.empty() ? sample : sample + offsets[0], memo);
     };
     out.background += weight * throughLayers(layers, shade, add);
 }
 
-Shade NsaaFrame::shadeTriangle(Owner owner, glm::dvec2 sample_px) const {
+Shade NsaaFrame::shadeTriangle(Owner owner, glm::dvec2 sample_px, Shading::Memo& memo) const {
     if (!plan.constant.empty() && plan.constant[owner]) return *plan.constant[owner];
-    return shading.closest(owner, sample_px);
+    return shading.closest(owner, sample_px, memo);
 }
 
-Shade NsaaFrame::shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const {
+Shade NsaaFrame::shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px, Shading::Memo& memo) const {
     requireShadable(layers, sample_px - offset());
     return composite(
-        layers, [&](Owner o) { return shadeTriangle(o, sample_px); }, in.options.background);
+        layers, [&](Owner o) { return shadeTriangle(o, sample_px, memo); }, in.options.background);
 }
 
-Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets,
+                       Shading::Memo& memo) const {
     const auto constant = [&](Owner o) {
         return o == kBackground || (!plan.constant.empty() && plan.constant[o]);
     };
     if (offsets.empty() || std::all_of(layers.begin(), layers.end(), constant))
-        return shadeAt(layers, sample_px);
+        return shadeAt(layers, sample_px, memo);
     Shade sum{glm::dvec3(0.0), 0.0};
     for (const glm::dvec2& offset : offsets) {
-        const Shade one = shadeAt(layers, sample_px + offset);
+        const Shade one = shadeAt(layers, sample_px + offset, memo);
         sum.color += one.color, sum.alpha += one.alpha;
     }
     const auto count = static_cast<double>(offsets.size());
@@ -154,9 +156,10 @@ Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offs
 }
 
 void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+    Shading::Memo& memo = memos_.local();
     blend(
         tile, offset(),
-        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at); },
+        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at, memo); },
         result.image);
 }
 
@@ -180,7 +183,8 @@ Bands NsaaFrame::cutIntoBands(const PixelBox& crop) {
     in.progress.stage("gather", 0);
     const CellGrid grid = cellsAround(crop, offset(), in.filter);
     requireLattice(grid, in.options.memory_mib << 20);
-    const IdLists lists = gather(screen, grid);
+    crop_lists_ = gather(screen, grid);
+    const IdLists& lists = *crop_lists_;
     counts["cell_triangle_pairs"] = lists.ids.size();
     const std::size_t limit = in.options.memory_mib << 20;
     if (residentBytes() >= limit)
@@ -188,6 +192,12 @@ Bands NsaaFrame::cutIntoBands(const PixelBox& crop) {
                                                    (residentBytes() >> 20) + 1));
     watch.book("gather", result.stages);
     return Bands(crop, grid, lists, reachOf(in.filter), offset(), limit - residentBytes());
+}
+
+IdLists NsaaFrame::gatherOnHost(const CellGrid& grid) {
+    const std::optional<IdLists> known = std::exchange(crop_lists_, std::nullopt);
+    const bool whole = known && known->offsets.size() == grid.size() + 1;
+    return whole ? *std::move(known) : gather(screen, grid);
 }
 
 void NsaaFrame::fillCounts(std::size_t bands) {

@@ -2,6 +2,8 @@
 // result.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <functional>
 #include <map>
 #include <optional>
@@ -67,12 +69,20 @@ class NsaaFrame {
     glm::dvec2 offset() const { return in.film.debug_offset_px; }
 
     /// The mean of whole stacks: their layers' opacities belong together.
-    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const;
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets,
+                Shading::Memo& memo) const;
+    Shade shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offsets offsets) const {
+        return shade(layers, sample_px, offsets, memos_.local());
+    }
     /// Blends the tile into the image.
     void blendTile(const WeightTile& tile, const LayerStacks& stacks);
     void bookSeconds(const std::string& name, double seconds);
     /// Throws FailureError where --memory does not suffice.
     Bands cutIntoBands(const PixelBox& crop);
+    /// The triangles of the grid's cells, each list in ascending order.
+    IdLists gatherOnHost(const CellGrid& grid);
+    /// Where no host asks for them.
+    void dropLists() { crop_lists_.reset(); }
 
     const MethodInput& in;
     MethodResult result;
@@ -91,10 +101,13 @@ class NsaaFrame {
     void renderBand(NsaaStages& stages, const VisibleMap& map, const PixelBox& band);
     void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const;
-    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px) const;
-    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px) const;
+    Shade shadeTriangle(Owner owner, glm::dvec2 sample_px, Shading::Memo& memo) const;
+    Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px, Shading::Memo& memo) const;
     std::size_t residentBytes() const;
     void fillCounts(std::size_t bands);
+
+    std::optional<IdLists> crop_lists_;  ///< what the bands were cut by, until a band is the whole crop
+    mutable tbb::enumerable_thread_specific<Shading::Memo> memos_;
 };
 
 /// Says how far the picture is where it is made in several bands.

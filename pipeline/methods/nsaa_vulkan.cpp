@@ -77,6 +77,7 @@ class VulkanStages : public CpuStages {
     }
 
     VisibleMap visibleMap(NsaaFrame& frame, const CellGrid& grid) override {
+        frame.dropLists();
         PassGraph graph(device_);
         const Resource triangles = graph.input("triangles", triangles_),
                        planes = graph.input("planes", planes_);

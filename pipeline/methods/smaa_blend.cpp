@@ -50,7 +50,7 @@ glm::dvec4 mixture(const Shares& shares, const At& at) {
 void blendNeighbours(const SmaaWeights& weights, const SmaaSettings& settings, ImageBuffer& image,
                      Progress& progress) {
     const int width = weights.width(), height = weights.height();
-    std::vector<glm::dvec4> out = image.rgba;
+    auto out = image.rgba;
     forRows("blend", height, progress, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const Shares shares(weights, x, y);

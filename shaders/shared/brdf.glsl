@@ -19,14 +19,31 @@ EDGEWISE_EXACT_FN double microfacets(dvec3 n, dvec3 h, double nl, double nv, dou
     return alpha2 / (EDGEWISE_PI * root * root * smith(nl, alpha2) * smith(nv, alpha2));
 }
 
-/// The share of the light from l that leaves towards v.
-EDGEWISE_EXACT_FN dvec3 reflectedShare(dvec3 base, double metallic, double roughness, dvec3 n, dvec3 v, dvec3 l) {
+/// Between a view and a light.
+struct Halfway {
+    dvec3 h;         // unit; 0 where the light comes from behind
+    double fresnel;  // (1 - |V.H|)^5
+};
+
+EDGEWISE_EXACT_FN Halfway halfwayOf(dvec3 v, dvec3 l) {
+    Halfway half_;
     dvec3 sum = v + l;
     double size = lengthOf(sum);
-    if (size == 0.0) return (1.0 - metallic) * base * (EDGEWISE_REAL(1.0) / EDGEWISE_PI);  // light from behind
-    dvec3 h = sum / size;
-    double dark = larger(0.0, 1.0 - absolute(inner(v, h)));
-    double fresnel = (dark * dark) * (dark * dark) * dark;
+    half_.h = dvec3(0.0);
+    half_.fresnel = 0.0;
+    if (size == 0.0) return half_;
+    half_.h = sum / size;
+    double dark = larger(0.0, 1.0 - absolute(inner(v, half_.h)));
+    half_.fresnel = (dark * dark) * (dark * dark) * dark;
+    return half_;
+}
+
+/// The share of the light from l that leaves towards v, half_ being between them.
+EDGEWISE_EXACT_FN dvec3 reflectedShare(dvec3 base, double metallic, double roughness, dvec3 n, dvec3 v, dvec3 l,
+                                       Halfway half_) {
+    if (isZero(half_.h)) return (1.0 - metallic) * base * (EDGEWISE_REAL(1.0) / EDGEWISE_PI);  // light from behind
+    dvec3 h = half_.h;
+    double fresnel = half_.fresnel;
     double specular = microfacets(n, h, inner(n, l), absolute(inner(n, v)), larger(roughness, EDGEWISE_LEAST_ROUGHNESS));
     double f = EDGEWISE_DIELECTRIC_F0 + (EDGEWISE_REAL(1.0) - EDGEWISE_DIELECTRIC_F0) * fresnel;
     dvec3 dielectric = base * ((1.0 - f) / EDGEWISE_PI) + dvec3(f * specular);
