@@ -161,7 +161,8 @@ TEST_F(SceneCatalog, EveryShippedFileIsWhatTheGeneratorMakes) {
         }
     }
     EXPECT_EQ(bytesOf(data / "MANIFEST.md"), scenes::manifest());
-    EXPECT_EQ(compared + filesBelow(data / "generate"), filesBelow(data)) << "a file of data/ has no recipe";
+    EXPECT_EQ(compared + filesBelow(data / "generate") + filesBelow(data / "studies"), filesBelow(data))
+        << "a scene of data/ has no recipe";
 }
 
 }  // namespace
