@@ -51,6 +51,7 @@ struct VisibilityOptions {
     int max_triangles = 12;       ///< a cell with more is split
     double min_cell_px = 0.0625;  ///< but not below this
     bool occlusion = true;        ///< drop what one covering triangle hides
+    bool sheets = true;           ///< ... and what one covering sheet of triangles hides
     bool certify = true;          ///< a cell that one sheet of triangles covers needs no sweep
     bool every_depth_line =
         false;  ///< of all pairs that meet in the cell, not only those that change order in it

@@ -94,7 +94,7 @@ bool CellVisibility::certify(const ScreenScene& scene, const Cell& cell, glm::dv
         return false;
     shared_edges_.collect(scene, cell, list());
     if (certificate_.run(scene, cell, origin, list(), shared_edges_, out)) return true;
-    if (!options.occlusion || list().size() < 2) return false;
+    if (!options.occlusion || !options.sheets || list().size() < 2) return false;
     const auto hidden = sheet_occlusion_.hidden(scene, cell, list(), shared_edges_);
     if (std::ranges::find(hidden, 1) == hidden.end()) return false;
     std::size_t kept = own;
