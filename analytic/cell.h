@@ -40,7 +40,8 @@ struct VisibilityCounts {
     std::uint64_t slabs = 0;
     std::uint64_t depth_lines = 0;  ///< pairs of planes that change order inside a leaf
     std::uint64_t exact_depth = 0;  ///< depth comparisons that the filter left to exact arithmetic
-    std::uint64_t hidden = 0;       ///< (cell, triangle) pairs dropped behind a covering triangle
+    std::uint64_t hidden =
+        0;  ///< (cell, triangle) pairs dropped behind a triangle or sheet that covers the cell
     std::uint64_t fine_orders = 0;  ///< orders of two lines that doubles left to their canonical points
     std::uint64_t closings = 0;     ///< pieces, longer than rounding, that close what planes left open
 

@@ -25,7 +25,7 @@ std::string generatorVersion() {
 
 std::string manifest() {
     return "# Scenes that ship\n\n"
-           "Origin: every file of this folder is made by `make_scenes` from the code in `data/generate/`, "
+           "Origin: every scene of this folder is made by `make_scenes` from the code in `data/generate/`, "
            "whose "
            "headers say how each pattern is constructed; nothing comes from elsewhere. Licence: the "
            "project's own. "

@@ -7,24 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/read_picture.h"
 #include "tests/cli/run_program.h"
 
 namespace edgewise::test {
 namespace {
-
-struct Picture {
-    OIIO::ImageSpec spec;
-    std::vector<float> values;
-};
-
-Picture readPicture(const std::filesystem::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) throw std::runtime_error(OIIO::geterror());
-    Picture picture{input->spec(), {}};
-    picture.values.resize(static_cast<std::size_t>(picture.spec.image_pixels()) * picture.spec.nchannels);
-    input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, picture.values.data());
-    return picture;
-}
 
 void run(const TemporaryFolder& folder, const Arguments& arguments) {
     const ProgramRun done = runProgram(arguments, folder.path());

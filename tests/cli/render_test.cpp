@@ -10,27 +10,11 @@
 #include <vector>
 
 #include "pipeline/version.h"
+#include "tests/cli/read_picture.h"
 #include "tests/cli/run_program.h"
 
 namespace edgewise::test {
 namespace {
-
-struct Picture {
-    OIIO::ImageSpec spec;
-    std::vector<float> values;
-    const float* at(int x, int y) const {
-        return &values[static_cast<std::size_t>((y - spec.y) * spec.width + (x - spec.x)) * spec.nchannels];
-    }
-};
-
-Picture readPicture(const std::filesystem::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) throw std::runtime_error(OIIO::geterror());
-    Picture picture{input->spec(), {}};
-    picture.values.resize(static_cast<std::size_t>(picture.spec.image_pixels()) * picture.spec.nchannels);
-    input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, picture.values.data());
-    return picture;
-}
 
 /// Renders `torus-20k` at 60x40 with more arguments behind; fails the test when the program does.
 ProgramRun render(const TemporaryFolder& folder, const std::string& output, Arguments more = {}) {

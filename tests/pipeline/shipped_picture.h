@@ -1,6 +1,8 @@
 // A small part of a picture of every scene that ships: what the tests of whole methods render.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -60,6 +62,21 @@ inline MethodResult renderPicture(const ShippedPicture& picture, const Prefilter
     Progress progress;
     return runMethod(parseMethod(method),
                      {picture.scene, picture.camera, picture.film, filter, options, progress});
+}
+
+/// A part of the picture by one thread within the least memory has the bits of that part of the whole.
+inline void expectCropThreadsAndMemoryDoNotShow(const char* method) {
+    ShippedPicture picture = shippedPicture("log-grid", 40);
+    const Prefilter box = makePrefilter("box", {}, {});
+    const ImageBuffer whole = renderPicture(picture, box, {}, method).image;
+    const PixelBox all = picture.film.crop;
+    picture.film.crop = {all.x0 + 5, all.y0 + 7, all.x1 - 3, all.y1 - 2};
+    RenderOptions options;
+    options.threads = 1, options.memory_mib = 0;
+    const ImageBuffer part = renderPicture(picture, box, options, method).image;
+    for (int y = picture.film.crop.y0; y < picture.film.crop.y1; ++y)
+        for (int x = picture.film.crop.x0; x < picture.film.crop.x1; ++x)
+            ASSERT_EQ(part.rgba[part.index(x, y)], whole.rgba[whole.index(x, y)]) << x << "," << y;
 }
 
 /// Of a parameter of a test: letters, digits and underscores.
