@@ -90,7 +90,7 @@ void LeafLines::collect(const ScreenScene& scene, const Cell& cell, glm::dvec2 o
                         std::span<const std::uint32_t> triangles, const VisibilityOptions& options,
                         VisibilityCounts& counts) {
     frame = CellFrame(cell, origin);
-    planes.clear(), lines.clear(), horizontals.clear(), events.clear(), masks.clear(), key_scratch_.clear();
+    planes.clear(), lines.clear(), horizontals.clear(), events.clear(), masks.clear();
     words = std::max<std::size_t>(1, (triangles.size() + 63) / 64);
     see_through.assign(words, 0), any_see_through = false;
     const double reach = std::max(cell.max.x - origin.x, cell.max.y - origin.y) + 1.0;
@@ -102,7 +102,6 @@ void LeafLines::collect(const ScreenScene& scene, const Cell& cell, glm::dvec2 o
     }
     addDepthLines(scene, triangles, options.every_depth_line, counts);
     addCrossings();
-    sortKeys();
 }
 
 void LeafLines::addEdge(const ScreenScene& scene, std::uint32_t triangle, std::uint32_t edge,
@@ -201,6 +200,7 @@ void LeafLines::addKey(OrderKey key, FineCoordinate y) {
 }
 
 void LeafLines::sortKeys() {
+    key_scratch_.clear();
     for (const LeafLine& line : lines) {
         if (line.runsInside()) {
             addKey(line.in0, yOf(line.enter));

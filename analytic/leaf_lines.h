@@ -24,12 +24,15 @@ class LeafLines {
                  std::span<const std::uint32_t> triangles, const VisibilityOptions& options,
                  VisibilityCounts& counts);
 
+    /// Fills keys and ordinates, and sorts what happens by them: for what sweeps slab by slab.
+    void sortKeys();
+
     std::vector<LocalPlane> planes;  ///< one a triangle
     std::vector<LeafLine> lines;
-    std::vector<LeafHorizontal> horizontals;  ///< sorted by key
-    std::vector<LeafEvent> events;            ///< sorted by key
-    std::vector<OrderKey> keys;               ///< of all events, ends and borders, ascending, distinct
-    std::vector<FineCoordinate> ordinates;    ///< one a key
+    std::vector<LeafHorizontal> horizontals;
+    std::vector<LeafEvent> events;
+    std::vector<OrderKey> keys;             ///< of all events, ends and borders, ascending, distinct
+    std::vector<FineCoordinate> ordinates;  ///< one a key
     std::vector<std::uint64_t> masks;
     std::vector<std::uint64_t> see_through;  ///< one row: the triangles that are
     bool any_see_through = false;
@@ -43,7 +46,6 @@ class LeafLines {
     void addDepthLine(const ScreenScene& scene, LineRef ref);
     void addCrossings();
     void addKey(OrderKey key, FineCoordinate y);
-    void sortKeys();
 
     std::vector<std::pair<OrderKey, FineCoordinate>> key_scratch_;
 };

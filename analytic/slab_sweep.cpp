@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "analytic/event_sweep.h"
 #include "analytic/exact_depth.h"
-#include "analytic/leaf_lines.h"
 
 namespace edgewise {
 namespace {
@@ -20,9 +20,7 @@ struct Track {
     double x_top = 0.0, x_bottom = 0.0, x_mid = 0.0;
     FinePoint top, bottom;  ///< the line's canonical points at the slab's ends, where an event gave them
     bool top_known = false, bottom_known = false;
-    bool open = false;
-    Owner left = kBackground, right = kBackground;  ///< of the open piece
-    FinePoint start;
+    OpenPiece piece;
     std::size_t labelled_in = SIZE_MAX;  ///< slab of the newest label
     Owner new_left = kBackground, new_right = kBackground;
 };
@@ -88,6 +86,7 @@ struct SlabSweep::State {
     CellOutput* out;
 
     LeafLines leaf;
+    EventSweep events;
     std::vector<Track> tracks;
     std::vector<std::uint32_t> by_entry, order, left_lines;
     std::vector<std::uint64_t> mask;
@@ -323,29 +322,20 @@ FinePoint SlabSweep::State::topPoint(std::uint32_t line, std::size_t slab) const
     return tracks[line].top_known ? tracks[line].top : pointAtY(l.carrier, leaf.ordinates[slab]);
 }
 
-/// A piece of a flat line whose ends rounding moved, or led to a vertex, may run against the line though it
-/// runs down: it is turned, for it is integrated along the line.
 void SlabSweep::State::closePiece(std::uint32_t line, const FinePoint& end) {
-    Track& t = tracks[line];
-    if (!t.open) return;
-    const Carrier& c = leaf.lines[line].carrier;
-    const double dx = difference(xOf(end), xOf(t.start)), dy = difference(yOf(end), yOf(t.start));
-    if (dx * leaf.lines[line].slope + dy >= 0.0)
-        out->segments.push_back({lineKey(c), c.ref, t.left, t.right, t.start, end});
-    else
-        out->segments.push_back({lineKey(c), c.ref, t.right, t.left, end, t.start});
-    t.open = false;
+    tracks[line].piece.close(leaf.lines[line], end, out->segments);
 }
 
 void SlabSweep::State::updatePieces(std::size_t slab) {
     for (const std::uint32_t i : order) {
         Track& t = tracks[i];
+        OpenPiece& piece = t.piece;
         const bool labelled = t.labelled_in == slab;
-        if (t.open && labelled && t.left == t.new_left && t.right == t.new_right) continue;
-        if (!t.open && !labelled) continue;
+        if (piece.open && labelled && piece.left == t.new_left && piece.right == t.new_right) continue;
+        if (!piece.open && !labelled) continue;
         const FinePoint p = topPoint(i, slab);
-        if (t.open) closePiece(i, p);
-        if (labelled) t.open = true, t.left = t.new_left, t.right = t.new_right, t.start = p;
+        closePiece(i, p);
+        if (labelled) piece.begin(t.new_left, t.new_right, p);
     }
 }
 
@@ -451,6 +441,8 @@ void SlabSweep::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origi
                     CellOutput& out) {
     State& s = *state_;
     s.leaf.collect(scene, cell, origin, triangles, options, out.counts);
+    if (options.events && s.events.run(s.leaf, out)) return;
+    s.leaf.sortKeys();
     s.begin(scene, cell, origin, options, out);
     const std::size_t slabs = s.leaf.keys.size() - 1;
     for (std::size_t slab = 0; slab < slabs; ++slab) {

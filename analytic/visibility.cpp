@@ -16,6 +16,7 @@ int floorToCell(int px) {
 void VisibilityCounts::add(const VisibilityCounts& other) {
     cells += other.cells;
     certified += other.certified;
+    by_events += other.by_events;
     slabs += other.slabs;
     depth_lines += other.depth_lines;
     exact_depth += other.exact_depth;

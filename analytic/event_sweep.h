@@ -1,0 +1,68 @@
+// Visibility of a leaf by its events alone: where two lines cross, or lines begin or end, the order of the
+// lines and the faces between them change there and nowhere else. Gives what SlabSweep gives, wherever
+// doubles are sure of every order; else it declines.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analytic/leaf_lines.h"
+#include "analytic/open_piece.h"
+
+namespace edgewise {
+
+/// Holds the scratch memory of one thread.
+class EventSweep {
+  public:
+    /// Whether the owners of the leaf's cell were appended to `out`. False, with `out` untouched, where
+    /// rounding could decide anything: an order of lines or of depths, horizontal lines, lines that touch
+    /// without crossing; and where triangles are seen through. O(events + faces that change + faces a row).
+    bool run(const LeafLines& leaf, CellOutput& out);
+
+  private:
+    /// Lines `p` and `q` cross at `at`, or p begins (q = kBegins) or ends (q = kEnds) there.
+    struct Happening {
+        OrderKey key;
+        const FinePoint* at;
+        std::uint32_t p, q;
+    };
+    /// Between two neighbouring lines, or a line and the cell's border.
+    struct Face {
+        std::uint64_t mask;  ///< the triangles that cover it
+        Owner owner;
+        bool changed;
+    };
+    static constexpr std::uint32_t kBegins = 0xfffffffeu, kEnds = 0xffffffffu;
+
+    bool sweep();
+    bool collect();
+    bool startAtTop();
+    std::uint64_t leftmost(OrderKey key) const;
+    bool happen(std::span<const Happening> together);
+    bool cross(const Happening& h);
+    int sideOf(const FinePoint& p) const;
+    bool passSide(const Happening& h, int side);
+    bool meet(std::span<const Happening> together);
+    bool sortBegun();
+    std::size_t placeOf(const FinePoint& p) const;
+    bool clearOfNeighbours(const FinePoint& p, std::size_t from, std::size_t to) const;
+    bool replace(std::size_t from, std::size_t to);
+    bool seeChanged(double y);
+    bool see(Face& face, double x, double y) const;
+    bool relabel();
+    void emitRows(OrderKey until);
+    double xAt(std::uint32_t line, double y) const;
+    double leftBorder() const { return (leaf_->frame.cell.min.x - leaf_->frame.origin.x) + kBorderRestPx; }
+    double rightBorder() const { return (leaf_->frame.cell.max.x - leaf_->frame.origin.x) + kBorderRestPx; }
+
+    const LeafLines* leaf_ = nullptr;
+    CellOutput* out_ = nullptr;
+    std::vector<Happening> happenings_;
+    std::vector<std::uint32_t> order_, begun_;  ///< lines from left to right; those that begin at a point
+    std::vector<Face> faces_;                   ///< one more than lines in order_
+    std::vector<OpenPiece> pieces_;             ///< one a line
+    std::vector<const FinePoint*> touched_;     ///< one a line: where something has just happened to it
+    int next_row_ = 0;
+};
+
+}  // namespace edgewise
