@@ -155,12 +155,29 @@ Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offs
     return {sum.color / count, sum.alpha / count};
 }
 
-void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+/// The shade of every entry, as shade() has it: single triangles that vary and have no points go in groups.
+void NsaaFrame::shadeTile(const WeightTile& tile, const LayerStacks& stacks, TileShades& shades) {
     Shading::Memo& memo = memos_.local();
-    blend(
-        tile, offset(),
-        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at, memo); },
-        result.image);
+    const bool points = !tile.points.end.empty();
+    shades.by_entry.resize(tile.entries.size());
+    shades.groups.begin(tile.entries.size());
+    forEachEntry(tile, offset(), [&](std::size_t e, glm::dvec2 sample) {
+        const Owner& owner = tile.entries[e].owner;
+        const bool constant = isStack(owner) || (!plan.constant.empty() && plan.constant[owner]);
+        if (owner == kBackground)
+            shades.by_entry[e] = {in.options.background, 0.0};
+        else if (constant || (points && !tile.points.of(e).empty()))
+            shades.by_entry[e] = shade(stacks.layersOf(owner), sample, tile.points.of(e), memo);
+        else
+            shades.by_entry[e].alpha = 1.0, shades.groups.add(owner, sample, static_cast<std::uint32_t>(e));
+    });
+    shades.groups.finish(shading, shades.by_entry);
+}
+
+void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+    TileShades& shades = tile_shades_.local();
+    shadeTile(tile, stacks, shades);
+    blend(tile, shades.by_entry, result.image);
 }
 
 void NsaaFrame::bookSeconds(const std::string& name, double seconds) {
