@@ -42,15 +42,6 @@ void fillLights(const Lighting& lighting, std::vector<LaneLight>& lights) {
     }
 }
 
-LaneSurface laneSurface(std::span<const ScreenTriangle> pieces) {
-    static_assert(sizeof(ScreenTriangle) % sizeof(double) == 0);
-    LaneSurface lanes;
-    lanes.pieces_px = &pieces[0].p_px[0].x;
-    lanes.piece_count = pieces.size();
-    lanes.piece_stride = sizeof(ScreenTriangle) / sizeof(double);
-    return lanes;
-}
-
 }  // namespace
 
 void Shading::Groups::begin(std::size_t most) {
@@ -76,84 +67,97 @@ void Shading::Groups::add(Owner owner, glm::dvec2 sample_px, std::uint32_t entry
 void Shading::Groups::finish(const Shading& shading, std::span<Shade> out) {
     fillLights(shading.lighting_, lights_);
     frame_ = laneFrame(shading.map_, shading.lighting_, lights_);
-    for (const Group& group : groups_) {
-        Surface surface = shading.surfaceOf(group.owner);
-        const auto geometry = static_cast<std::size_t>(surface.geometry - shading.scene_.geometry.data());
-        if (const auto& look = shading.plain_looks_[geometry])
-            finishPlain(shading, surface, *look, group, out);
-        else
-            finishAny(shading, surface, group, out);
-    }
+    for (const Group& group : groups_) finish(shading, group, out);
+    flush(shading, out);
 }
 
-/// The last batch is filled up with its last sample.
-template <class Visit>
-void Shading::Groups::forEachBatch(std::uint32_t first, const Visit& visit) {
-    while (first != kEnd) {
-        std::uint32_t entries[kSurfaceLanes];
-        int count = 0;
-        for (; count < kSurfaceLanes && first != kEnd; ++count, first = items_[first].next) {
-            const Item& item = items_[first];
-            samples_.x_px[count] = item.sample_px.x, samples_.y_px[count] = item.sample_px.y;
-            entries[count] = item.entry;
-        }
-        for (int i = count; i < kSurfaceLanes; ++i) {
-            samples_.x_px[i] = samples_.x_px[count - 1];
-            samples_.y_px[i] = samples_.y_px[count - 1];
-        }
-        visit(entries, count);
+void Shading::Groups::finish(const Shading& shading, Group group, std::span<Shade> out) {
+    if (shading.pieces_.of(group.owner, shading.screen_).size() != 1)
+        return finishSingly(shading, group, out);
+    Surface surface = shading.surfaceOf(group.owner);
+    const Geometry& geometry = *surface.geometry;
+    const auto& look =
+        shading.plain_looks_[static_cast<std::size_t>(&geometry - shading.scene_.geometry.data())];
+    const bool alike =
+        look && !(shading.lighting_.isUniform() &&
+                  (geometry.normal_world.empty() || sameAtCorners(geometry.normal_world, surface.vertex)));
+    if (!alike) {
+        if (const auto shade = shading.constant(surface)) return fill(group.first, shade->color, out);
+        shading.placeCorners(surface);
+        const glm::dvec2 some_sample = items_[group.first].sample_px;
+        if (shading.isOneTexel(surface))
+            return fill(group.first, shading.shadeClosest(surface, group.owner, some_sample).color, out);
     }
+    enqueue(shading, group, surface, alike ? &*look : nullptr, out);
+}
+
+/// Few: those that the near plane cuts in two.
+void Shading::Groups::finishSingly(const Shading& shading, Group group, std::span<Shade> out) const {
+    for (std::uint32_t i = group.first; i != kEnd; i = items_[i].next)
+        out[items_[i].entry].color = shading.closest(group.owner, items_[i].sample_px).color;
 }
 
 void Shading::Groups::fill(std::uint32_t first, const glm::dvec3& color, std::span<Shade> out) const {
     for (; first != kEnd; first = items_[first].next) out[items_[first].entry].color = color;
 }
 
-void Shading::Groups::finishPlain(const Shading& shading, const Surface& surface, const LaneMaterial& look,
-                                  Group group, std::span<Shade> out) {
-    const Geometry& geometry = *surface.geometry;
-    const bool smooth = !geometry.normal_world.empty();
-    if (shading.lighting_.isUniform() && (!smooth || sameAtCorners(geometry.normal_world, surface.vertex))) {
-        Surface copy_of = surface;
-        return fill(group.first, shading.constant(copy_of)->color, out);
-    }
-    LaneSurface lanes = laneSurface(shading.pieces_.of(group.owner, shading.screen_));
-    lanes.smooth = smooth;
-    lanes.mapped = false;
+void Shading::Groups::enqueue(const Shading& shading, Group group, const Surface& surface,
+                              const LaneMaterial* look, std::span<Shade> out) {
+    const bool smooth = !surface.geometry->normal_world.empty();
+    if (look != batch_.look || smooth != batch_.smooth) flush(shading, out);
+    batch_.look = look, batch_.smooth = smooth;
+    LaneTriangle triangle;
+    const ScreenTriangle& piece = shading.pieces_.of(group.owner, shading.screen_)[0];
     for (int k = 0; k < 3; ++k) {
-        copy(shading.cornerEye(surface, k), lanes.p_eye[k]);
-        if (smooth) copy(shading.cornerNormal(surface, k), lanes.normal_eye[k]);
+        copy(piece.p_px[k], triangle.corner_px[k]);
+        copy(look ? shading.cornerEye(surface, k) : surface.p_eye[k], triangle.p_eye[k]);
+        copy(look && smooth ? shading.cornerNormal(surface, k) : glm::dvec3(0.0), triangle.normal_eye[k]);
     }
-    copy(shading.flatNormal(surface), lanes.flat_normal);
-    LaneColors colors;
-    forEachBatch(group.first, [&](const std::uint32_t* entries, int count) {
-        functions_.shade(frame_, lanes, look, samples_, count, colors);
-        for (int i = 0; i < count; ++i)
-            out[entries[i]].color = {colors.channel[0][i], colors.channel[1][i], colors.channel[2][i]};
-    });
+    if (look && !smooth) copy(shading.flatNormal(surface), triangle.normal_eye[0]);
+    for (std::uint32_t i = group.first; i != kEnd;) {
+        functions_.spread(triangle, batch_.count, batch_.lanes);
+        if (!look) batch_.surface[batch_.surface_count] = surface;
+        for (; batch_.count < kSurfaceLanes && i != kEnd; ++batch_.count, i = items_[i].next) {
+            batch_.lanes.sample_px[0][batch_.count] = items_[i].sample_px.x;
+            batch_.lanes.sample_px[1][batch_.count] = items_[i].sample_px.y;
+            batch_.item[batch_.count] = i;
+            batch_.owner[batch_.count] = group.owner;
+            batch_.surface_of[batch_.count] = batch_.surface_count;
+        }
+        ++batch_.surface_count;
+        if (batch_.count == kSurfaceLanes) flush(shading, out);
+    }
 }
 
-void Shading::Groups::finishAny(const Shading& shading, Surface& surface, Group group, std::span<Shade> out) {
-    if (const auto shade = shading.constant(surface)) return fill(group.first, shade->color, out);
-    shading.placeCorners(surface);
-    if (shading.isOneTexel(surface))
-        return fill(group.first,
-                    shading.shadeClosest(surface, group.owner, items_[group.first].sample_px).color, out);
-    LaneSurface lanes = laneSurface(shading.pieces_.of(group.owner, shading.screen_));
-    lanes.mapped = surface.mapped;
-    for (int k = 0; k < 3; ++k) copy(surface.p_eye[k], lanes.p_eye[k]);
-    LanePlaces places{};
-    forEachBatch(group.first, [&](const std::uint32_t* entries, int count) {
-        functions_.locate(frame_, lanes, samples_, count, places);
-        const auto at = [](const double(&v)[3][kSurfaceLanes], int i) {
+void Shading::Groups::flush(const Shading& shading, std::span<Shade> out) {
+    if (batch_.count > 0) batch_.look ? flushAlike(shading, out) : flushApart(shading, out);
+    batch_.count = batch_.surface_count = 0;
+}
+
+void Shading::Groups::flushAlike(const Shading& shading, std::span<Shade> out) {
+    LaneColors colors;
+    const unsigned no_normal =
+        functions_.shade(frame_, *batch_.look, batch_.smooth, batch_.lanes, batch_.count, colors);
+    for (int i = 0; i < batch_.count; ++i) {
+        const Item& item = items_[batch_.item[i]];
+        out[item.entry].color = {colors.channel[0][i], colors.channel[1][i], colors.channel[2][i]};
+        if (no_normal >> i & 1)
+            out[item.entry].color = shading.closest(batch_.owner[i], item.sample_px).color;
+    }
+}
+
+void Shading::Groups::flushApart(const Shading& shading, std::span<Shade> out) {
+    LanePlaces places;
+    functions_.locate(frame_, batch_.lanes, batch_.count, places);
+    for (int i = 0; i < batch_.count; ++i) {
+        const Surface& surface = batch_.surface[batch_.surface_of[i]];
+        const auto at = [i](const double(&v)[3][kSurfaceLanes]) {
             return glm::dvec3(v[0][i], v[1][i], v[2][i]);
         };
-        for (int i = 0; i < count; ++i)
-            out[entries[i]].color = shading
-                                        .shadeAt(surface, {at(places.barycentric, i), at(places.d_dx, i),
-                                                           at(places.d_dy, i), at(places.p_eye, i)})
-                                        .color;
-    });
+        Location location{at(places.barycentric), glm::dvec3(0.0), glm::dvec3(0.0), at(places.p_eye)};
+        if (surface.mapped) location.d_dx = at(places.d_dx), location.d_dy = at(places.d_dy);
+        out[items_[batch_.item[i]].entry].color = shading.shadeAt(surface, location).color;
+    }
 }
 
 }  // namespace edgewise

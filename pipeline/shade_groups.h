@@ -34,13 +34,25 @@ class Shading::Groups {
         Owner owner;
         std::uint32_t first;
     };
-    /// Calls visit(items, count) for up to kSurfaceLanes items of a group at a time.
-    template <class Visit>
-    void forEachBatch(std::uint32_t first, const Visit& visit);
+    /// What shares a step: up to kSurfaceLanes samples of surfaces that are shaded alike.
+    struct Batch {
+        const LaneMaterial* look = nullptr;  ///< none: each by itself, at its place
+        bool smooth = false;
+        int count = 0, surface_count = 0;
+        SurfaceLanes lanes{};
+        std::uint32_t item[kSurfaceLanes] = {};
+        Owner owner[kSurfaceLanes] = {};
+        int surface_of[kSurfaceLanes] = {};
+        Surface surface[kSurfaceLanes];
+    };
+    void finish(const Shading& shading, Group group, std::span<Shade> out);
+    void finishSingly(const Shading& shading, Group group, std::span<Shade> out) const;
     void fill(std::uint32_t first, const glm::dvec3& color, std::span<Shade> out) const;
-    void finishPlain(const Shading& shading, const Surface& surface, const LaneMaterial& look, Group group,
-                     std::span<Shade> out);
-    void finishAny(const Shading& shading, Surface& surface, Group group, std::span<Shade> out);
+    void enqueue(const Shading& shading, Group group, const Surface& surface, const LaneMaterial* look,
+                 std::span<Shade> out);
+    void flush(const Shading& shading, std::span<Shade> out);
+    void flushAlike(const Shading& shading, std::span<Shade> out);
+    void flushApart(const Shading& shading, std::span<Shade> out);
 
     SurfaceFunctions functions_;
     LaneFrame frame_;
@@ -48,7 +60,7 @@ class Shading::Groups {
     std::vector<std::uint32_t> slots_;  ///< a hash table of owners: 1 + the group, or 0
     std::vector<Group> groups_;
     std::vector<Item> items_;
-    LaneSamples samples_{};
+    Batch batch_;
 };
 
 }  // namespace edgewise

@@ -1,13 +1,11 @@
-// Several places of one surface shaded at once. What the code of one instruction set takes and gives: plain
+// Samples of a few triangles shaded at once. What the code of one instruction set takes and gives: plain
 // data, no library types, so that nothing compiled for a newer machine can be linked into code for an older
 // one.
 #pragma once
 
-#include <cstddef>
-
 namespace edgewise {
 
-/// Places that one call takes at most.
+/// Samples that one call takes at most.
 inline constexpr int kSurfaceLanes = 8;
 
 /// A light that is the same everywhere, eye space.
@@ -25,14 +23,10 @@ struct LaneFrame {
     int light_count;
 };
 
-/// One triangle, eye space. Its pieces on the screen: three corners (x, y), px, `piece_stride` doubles apart.
-struct LaneSurface {
-    double p_eye[3][3];
-    double normal_eye[3][3];  ///< unit, by corner, where it is `smooth`
-    double flat_normal[3];
-    const double* pieces_px;
-    std::size_t piece_count, piece_stride;
-    bool smooth, mapped;  ///< has vertex normals; some map asks for the footprint
+/// A triangle that has one piece on the screen.
+struct LaneTriangle {
+    double corner_px[3][2], p_eye[3][3];
+    double normal_eye[3][3];  ///< unit, by corner; flat shading: the normal is [0]
 };
 
 /// A lit material that is the same all over the surface.
@@ -41,12 +35,14 @@ struct LaneMaterial {
     double start[3];  ///< what it sends without the lights
 };
 
-/// Samples, px. Places beyond those that count may hold anything finite.
-struct LaneSamples {
-    alignas(64) double x_px[kSurfaceLanes], y_px[kSurfaceLanes];
+/// By lane a sample, px, and its triangle. Twice as long as it need be: spread() writes whole vectors.
+struct SurfaceLanes {
+    static constexpr int kLength = 2 * kSurfaceLanes;
+    alignas(64) double sample_px[2][kLength];
+    double corner_px[3][2][kLength], p_eye[3][3][kLength], normal_eye[3][3][kLength];
 };
 
-/// Per place: a f64::SurfacePoint.
+/// By lane a f64::SurfacePoint.
 struct LanePlaces {
     alignas(64) double barycentric[3][kSurfaceLanes];
     double d_dx[3][kSurfaceLanes], d_dy[3][kSurfaceLanes], p_eye[3][kSurfaceLanes];
@@ -56,12 +52,17 @@ struct LaneColors {
     alignas(64) double channel[3][kSurfaceLanes];
 };
 
-/// Both look at the first `count` samples, 1 <= count <= kSurfaceLanes, and give what Shading gives for its
-/// closest point, bit for bit: where it is, and the colour there.
 struct SurfaceFunctions {
-    void (*locate)(const LaneFrame&, const LaneSurface&, const LaneSamples&, int count, LanePlaces&);
-    void (*shade)(const LaneFrame&, const LaneSurface&, const LaneMaterial&, const LaneSamples&, int count,
-                  LaneColors&);
+    /// The triangle from lane `first` on, in all lanes up to kSurfaceLanes.
+    void (*spread)(const LaneTriangle&, int first, SurfaceLanes&);
+
+    /// Where the first `count` samples are shaded, 1 <= count <= kSurfaceLanes: bit for bit as Shading's
+    /// closest point.
+    void (*locate)(const LaneFrame&, const SurfaceLanes&, int count, LanePlaces&);
+
+    /// The colour there. Returns the lanes whose normal is 0, as bits: they have no colour.
+    unsigned (*shade)(const LaneFrame&, const LaneMaterial&, bool smooth, const SurfaceLanes&, int count,
+                      LaneColors&);
 };
 
 /// The best form that this machine runs, or the one that EDGEWISE_ISA names.

@@ -68,52 +68,50 @@ EDGEWISE_FN real load(const double* from) {
     __builtin_memcpy(&value, from, sizeof value);
     return value;
 }
+using Lanes = double[SurfaceLanes::kLength];
+EDGEWISE_FN dvec2 load2(const Lanes* v, int first) { return {load(v[0] + first), load(v[1] + first)}; }
+EDGEWISE_FN dvec3 load3(const Lanes* v, int first) {
+    return {load(v[0] + first), load(v[1] + first), load(v[2] + first)};
+}
 EDGEWISE_FN void store(const dvec3& value, int first, double (*out)[kSurfaceLanes]) {
     __builtin_memcpy(out[0] + first, &value.x, sizeof value.x);
     __builtin_memcpy(out[1] + first, &value.y, sizeof value.y);
     __builtin_memcpy(out[2] + first, &value.z, sizeof value.z);
 }
 
-/// Shading::closestOffset.
-EDGEWISE_FN dvec2 closestOffset(const LaneSurface& surface, const dvec2& s) {
-    dvec2 best(0.0);
-    real best_px2 = splat(__builtin_inf());
-    mask inside = best_px2 < 0.0;
-    for (std::size_t i = 0; i < surface.piece_count; ++i) {
-        const double* p = surface.pieces_px + i * surface.piece_stride;
-        const dvec2 corner[3] = {splat2(p), splat2(p + 2), splat2(p + 4)};
-        mask outside = sideOf(corner[0], corner[1], s) < 0.0;
-        outside = EDGEWISE_EITHER(outside, sideOf(corner[1], corner[2], s) < 0.0);
-        outside = EDGEWISE_EITHER(outside, sideOf(corner[2], corner[0], s) < 0.0);
-        inside = EDGEWISE_EITHER(inside, !outside);
-        if (!anyLane(!inside)) return dvec2(0.0);
-        for (int k = 0; k < 3; ++k) {
-            const dvec2 offset = offsetToSegment(corner[k], corner[k == 2 ? 0 : k + 1], s);
-            const real px2 = inner(offset, offset);
-            const mask farther = px2 >= best_px2;
-            best = either(farther, best, offset);
-            best_px2 = farther ? best_px2 : px2;
-        }
+/// Shading::closestOffset of a triangle of one piece.
+EDGEWISE_FN dvec2 closestOffset(const dvec2 (&corner)[3], const dvec2& s) {
+    mask outside = sideOf(corner[0], corner[1], s) < 0.0;
+    outside = EDGEWISE_EITHER(outside, sideOf(corner[1], corner[2], s) < 0.0);
+    outside = EDGEWISE_EITHER(outside, sideOf(corner[2], corner[0], s) < 0.0);
+    if (!anyLane(outside)) return dvec2(0.0);
+    dvec2 best = offsetToSegment(corner[0], corner[1], s);
+    real best_px2 = inner(best, best);
+    for (int k = 1; k < 3; ++k) {
+        const dvec2 offset = offsetToSegment(corner[k], corner[k == 2 ? 0 : 2], s);
+        const real px2 = inner(offset, offset);
+        const mask farther = px2 >= best_px2;
+        best = either(farther, best, offset);
+        best_px2 = farther ? best_px2 : px2;
     }
-    return either(inside, dvec2(0.0), best);
+    return either(outside, best, dvec2(0.0));
 }
 
-EDGEWISE_FN SurfacePoint placeOf(const LaneFrame& frame, const LaneSurface& surface, const LaneSamples& samples,
-                                 int first) {
-    const dvec2 s(load(samples.x_px + first), load(samples.y_px + first));
-    const dvec2 uv = imagePlanePoint(s, closestOffset(surface, s), splat2(frame.offset_px), splat2(frame.whole_px),
+EDGEWISE_FN SurfacePoint placeOf(const LaneFrame& frame, const SurfaceLanes& in, int first) {
+    const dvec2 s = load2(in.sample_px, first);
+    const dvec2 corner[3] = {load2(in.corner_px[0], first), load2(in.corner_px[1], first),
+                             load2(in.corner_px[2], first)};
+    const dvec2 uv = imagePlanePoint(s, closestOffset(corner, s), splat2(frame.offset_px), splat2(frame.whole_px),
                                      splat2(frame.fraction_px), frame.scale_px);
-    return surfacePointAt(splat3(surface.p_eye[0]), splat3(surface.p_eye[1]), splat3(surface.p_eye[2]), uv,
+    return surfacePointAt(load3(in.p_eye[0], first), load3(in.p_eye[1], first), load3(in.p_eye[2], first), uv,
                           frame.perspective, frame.scale_px);
 }
 
-/// Shading::vertexNormalAt.
-EDGEWISE_FN dvec3 normalAt(const LaneSurface& surface, const dvec3& w) {
-    const dvec3 flat = splat3(surface.flat_normal);
-    if (!surface.smooth) return flat;
-    const dvec3 normal = unitOrZero(mix3(splat3(surface.normal_eye[0]), splat3(surface.normal_eye[1]),
-                                         splat3(surface.normal_eye[2]), w));
-    return either(isZero(normal), flat, normal);
+/// Shading::vertexNormalAt, but 0 where that is the flat normal.
+EDGEWISE_FN dvec3 normalAt(const SurfaceLanes& in, int first, bool smooth, const dvec3& w) {
+    const dvec3 n = load3(in.normal_eye[0], first);
+    if (!smooth) return n;
+    return unitOrZero(mix3(n, load3(in.normal_eye[1], first), load3(in.normal_eye[2], first), w));
 }
 
 /// Shading::litColor.
@@ -135,30 +133,50 @@ EDGEWISE_FN dvec3 litColor(const LaneFrame& frame, const LaneMaterial& material,
     }
     return color;
 }
+
+/// As many lanes as there are, up to kSurfaceLanes of them.
+template <int count>
+EDGEWISE_FN void spread(const double (&from)[count], int first, Lanes* out) {
+    for (int i = 0; i < count; ++i)
+        for (int lane = first; lane < first + kSurfaceLanes; lane += EDGEWISE_LANES) {
+            const real value = splat(from[i]);
+            __builtin_memcpy(out[i] + lane, &value, sizeof value);
+        }
+}
 }  // namespace
 
-void locate(const LaneFrame& frame, const LaneSurface& surface, const LaneSamples& samples, int count,
-            LanePlaces& places);
-void locate(const LaneFrame& frame, const LaneSurface& surface, const LaneSamples& samples, int count,
-            LanePlaces& places) {
-    for (int first = 0; first < count; first += EDGEWISE_LANES) {
-        const SurfacePoint at = placeOf(frame, surface, samples, first);
-        store(at.barycentric, first, places.barycentric);
-        store(at.p_eye, first, places.p_eye);
-        if (!surface.mapped) continue;
-        store(at.d_dx, first, places.d_dx);
-        store(at.d_dy, first, places.d_dy);
+void spread(const LaneTriangle& triangle, int first, SurfaceLanes& lanes);
+void spread(const LaneTriangle& triangle, int first, SurfaceLanes& lanes) {
+    for (int k = 0; k < 3; ++k) {
+        spread(triangle.corner_px[k], first, lanes.corner_px[k]);
+        spread(triangle.p_eye[k], first, lanes.p_eye[k]);
+        spread(triangle.normal_eye[k], first, lanes.normal_eye[k]);
     }
 }
 
-void shade(const LaneFrame& frame, const LaneSurface& surface, const LaneMaterial& material,
-           const LaneSamples& samples, int count, LaneColors& colors);
-void shade(const LaneFrame& frame, const LaneSurface& surface, const LaneMaterial& material,
-           const LaneSamples& samples, int count, LaneColors& colors) {
+void locate(const LaneFrame& frame, const SurfaceLanes& in, int count, LanePlaces& places);
+void locate(const LaneFrame& frame, const SurfaceLanes& in, int count, LanePlaces& places) {
     for (int first = 0; first < count; first += EDGEWISE_LANES) {
-        const SurfacePoint at = placeOf(frame, surface, samples, first);
-        store(litColor(frame, material, normalAt(surface, at.barycentric), at.p_eye), first, colors.channel);
+        const SurfacePoint at = placeOf(frame, in, first);
+        store(at.barycentric, first, places.barycentric);
+        store(at.d_dx, first, places.d_dx);
+        store(at.d_dy, first, places.d_dy);
+        store(at.p_eye, first, places.p_eye);
     }
+}
+
+unsigned shade(const LaneFrame& frame, const LaneMaterial& material, bool smooth, const SurfaceLanes& in, int count,
+               LaneColors& colors);
+unsigned shade(const LaneFrame& frame, const LaneMaterial& material, bool smooth, const SurfaceLanes& in, int count,
+               LaneColors& colors) {
+    unsigned no_normal = 0;
+    for (int first = 0; first < count; first += EDGEWISE_LANES) {
+        const SurfacePoint at = placeOf(frame, in, first);
+        const dvec3 normal = normalAt(in, first, smooth, at.barycentric);
+        no_normal |= laneSet(isZero(normal)) << first;
+        store(litColor(frame, material, normal, at.p_eye), first, colors.channel);
+    }
+    return no_normal & ((1u << count) - 1);
 }
 
 }  // namespace edgewise::surface_lanes::EDGEWISE_ISA

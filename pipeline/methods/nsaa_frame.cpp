@@ -177,7 +177,8 @@ void NsaaFrame::shadeTile(const WeightTile& tile, const LayerStacks& stacks, Til
 void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
     TileShades& shades = tile_shades_.local();
     shadeTile(tile, stacks, shades);
-    blend(tile, shades.by_entry, result.image);
+    blend(
+        tile, [&](std::size_t e) -> const Shade& { return shades.by_entry[e]; }, result.image);
 }
 
 void NsaaFrame::bookSeconds(const std::string& name, double seconds) {
