@@ -45,13 +45,13 @@ void fillLights(const Lighting& lighting, std::vector<LaneLight>& lights) {
 }  // namespace
 
 void Shading::Groups::begin(std::size_t most) {
-    slots_.assign(std::bit_ceil(2 * most + 1), 0);
+    most_ = most;
     groups_.clear();
     items_.clear();
-    items_.reserve(most);
 }
 
 void Shading::Groups::add(Owner owner, glm::dvec2 sample_px, std::uint32_t entry) {
+    if (items_.empty()) slots_.assign(std::bit_ceil(2 * most_ + 1), 0);
     const std::size_t last = slots_.size() - 1;
     std::size_t slot = (owner * 0x9e3779b97f4a7c15ull >> 32) & last;
     while (slots_[slot] != 0 && groups_[slots_[slot] - 1].owner != owner) slot = (slot + 1) & last;

@@ -57,6 +57,7 @@ class Shading::Groups {
     SurfaceFunctions functions_;
     LaneFrame frame_;
     std::vector<LaneLight> lights_;
+    std::size_t most_ = 0;
     std::vector<std::uint32_t> slots_;  ///< a hash table of owners: 1 + the group, or 0
     std::vector<Group> groups_;
     std::vector<Item> items_;
