@@ -350,6 +350,12 @@ std::optional<Shade> Shading::constant(Owner owner) const {
     return constant(surface);
 }
 
+std::optional<Shade> Shading::ofOneTexel(Owner owner) const {
+    const Surface surface = surfaceOf(owner);
+    if (!isOneTexel(surface)) return std::nullopt;
+    return shadeAt(surface, {{1.0, 0.0, 0.0}, {}, {}, glm::dvec3(0.0)});
+}
+
 bool Shading::varies(Owner owner) const {
     return varies(surfaceOf(owner));
 }

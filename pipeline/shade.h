@@ -71,6 +71,10 @@ class Shading {
     /// The shade of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<Shade> constant(Owner owner) const;
 
+    /// The shade of all of the owner where constant() has none, but one texel has the colour of all of it:
+    /// then closest() and atPoint() give exactly this.
+    std::optional<Shade> ofOneTexel(Owner owner) const;
+
     /// What the lights see at a point that lies on the owner: unit, eye space, towards the viewer.
     glm::dvec3 normal(Owner owner, glm::dvec2 p_px) const;
 

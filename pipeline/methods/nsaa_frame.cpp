@@ -156,7 +156,8 @@ Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offs
     return {sum.color / count, sum.alpha / count};
 }
 
-/// An entry's shade that no sample decides. What ends a view is there whole: of other alphas composite() makes 1.
+/// An entry's shade that no sample decides. What ends a view is there whole: of other alphas composite()
+/// makes 1.
 const Shade* NsaaFrame::known(Owner owner) const {
     if (owner == kBackground) return &background_;
     if (isStack(owner) || plan.constant.empty()) return nullptr;
