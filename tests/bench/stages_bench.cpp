@@ -83,7 +83,8 @@ struct Weighed : Prepared {
     void blendAll() {
         for (const WeightTile& tile : weights) {
             shadeTile(tile);
-            blend(tile, shades, image);
+            blend(
+                tile, [&](std::size_t e) -> const Shade& { return shades[e]; }, image);
         }
     }
 
