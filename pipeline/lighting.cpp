@@ -44,7 +44,8 @@ Lighting::Lighting(const Scene& scene, const ResolvedCamera& camera)
     : rig_(scene.lights.empty()), perspective_(camera.camera.perspective) {
     for (const Light& light : scene.lights) lights_.push_back(inEyeSpace(light, camera.camera_from_world));
     const auto directional = [](const EyeLight& l) { return l.type == f64::kDirectionalLight; };
-    uniform_ = rig_ || (!perspective_ && std::all_of(lights_.begin(), lights_.end(), directional));
+    directional_ = std::all_of(lights_.begin(), lights_.end(), directional);
+    uniform_ = rig_ || (!perspective_ && directional_);
     if (rig_)
         for (const RigLight& lamp : {kRigKey, kRigFill})
             lights_.push_back({f64::kDirectionalLight, glm::dvec3(0.0), -lamp.towards,

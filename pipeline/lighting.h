@@ -45,6 +45,9 @@ class Lighting {
     /// Unit, from the point to where it is seen from, eye space.
     glm::dvec3 view(const glm::dvec3& p_eye) const { return f64::viewFrom(p_eye, viewIsUniform()); }
 
+    /// Every light is the same everywhere, whatever the view.
+    bool isDirectional() const { return directional_; }
+
     /// view() is +z everywhere.
     bool viewIsUniform() const { return rig_ || !perspective_; }
 
@@ -63,7 +66,7 @@ class Lighting {
 
     std::vector<EyeLight> lights_;
     std::vector<f64::Halfway> halfways_;  ///< by light, where they are the same everywhere
-    bool rig_, perspective_, uniform_;
+    bool rig_, perspective_, directional_, uniform_;
 };
 
 }  // namespace edgewise

@@ -65,6 +65,24 @@ OwnerClasses classesOf(const std::vector<std::optional<Shade>>& constant, std::s
     return out;
 }
 
+/// Whether Shading::ofOneTexel() can have anything.
+bool takesTexelsAsTheyAre(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+        if (!m.unlit || !m.base_color_map.present()) return false;
+        const Texture& texture = scene.textures[m.base_color_map.texture];
+        return !texture.mip && texture.min == TexelFilter::kNearest;
+    });
+}
+
+void addOneTexelShades(const ScreenPieces& pieces, const Shading& shading,
+                       std::vector<std::optional<Shade>>& constant) {
+    constant.resize(pieces.first.size() - 1);
+    tbb::parallel_for(std::size_t{0}, constant.size(), [&](std::size_t i) {
+        if (pieces.first[i] != pieces.first[i + 1] && !constant[i])
+            constant[i] = shading.ofOneTexel(static_cast<Owner>(i));
+    });
+}
+
 bool isTextured(const Material& m) {
     return m.base_color_map.present() || m.metallic_roughness_map.present() || m.normal_map.present() ||
            m.occlusion_map.present() || m.emissive_map.present();
@@ -142,6 +160,8 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
         fetch ? "every colour varies: " + fetchReason(scene)
               : fmt::format("{} triangles of constant colour fetch nothing; {}", merged, fetchReason(scene));
     if (!add("fetch", fetch, fetch_why)) plan.constant.clear();
+    if (!options.keeps("fetch") && takesTexelsAsTheyAre(scene))
+        addOneTexelShades(pieces, shading, plan.constant);
     return plan;
 }
 

@@ -15,8 +15,10 @@ struct Plan {
     std::vector<PlanEntry> entries;
     VisibilityStageOptions visibility;
     WeightOptions weights;
-    OwnerClasses classes;                        ///< empty where nothing cancels
-    std::vector<std::optional<Shade>> constant;  ///< by owner; empty where every colour is fetched
+    OwnerClasses classes;  ///< empty where nothing cancels
+    /// By owner, where no sample decides it; empty where every colour is fetched. Triangles within one texel
+    /// are here, but are not merged into classes.
+    std::vector<std::optional<Shade>> constant;
 };
 
 /// Names that --no-skip takes.

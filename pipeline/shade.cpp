@@ -22,11 +22,6 @@ auto interpolate(const std::vector<Vector>& values, const std::array<std::uint32
     return f64::mix3(values[vertex[0]], values[vertex[1]], values[vertex[2]], w);
 }
 
-template <class Vector>
-bool sameAtCorners(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex) {
-    return values[vertex[0]] == values[vertex[1]] && values[vertex[0]] == values[vertex[2]];
-}
-
 glm::dvec2 mapPoint(const TextureUse& use, glm::dvec2 uv) {
     return glm::dvec2(use.uv_from_vertex * glm::dvec3(uv, 1.0));
 }
@@ -73,6 +68,26 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
         const auto [kind, image] = jobs[i];
         (kind == TexelKind::kNormal ? normal_pyramids_ : pyramids_)[image].emplace(scene.images[image], kind);
     });
+    for (const Geometry& geometry : scene.geometry) plain_looks_.push_back(plainLookOf(geometry));
+}
+
+std::optional<LaneMaterial> Shading::plainLookOf(const Geometry& geometry) const {
+    Surface surface;
+    surface.geometry = &geometry;
+    surface.material = &scene_.materials[geometry.material];
+    const Material& m = *surface.material;
+    if (m.unlit || geometry.triangles.empty() || !geometry.color.empty() || !lighting_.isDirectional() ||
+        pyramidOf(surface, m.normal_map, TexelKind::kNormal))
+        return std::nullopt;
+    for (const TextureUse* map :
+         {&m.base_color_map, &m.metallic_roughness_map, &m.occlusion_map, &m.emissive_map})
+        if (mapVaries(surface, *map)) return std::nullopt;
+    surface.vertex = geometry.triangles[0];
+    const Location anywhere{{1.0, 0.0, 0.0}, {}, {}, glm::dvec3(0.0)};
+    const Reflectance look = reflectanceAt(surface, anywhere, glm::dvec3(baseAt(surface, anywhere)));
+    const glm::dvec3 start = look.base * ambientAt(surface, anywhere) + emissiveAt(surface, anywhere);
+    return LaneMaterial{
+        {look.base.x, look.base.y, look.base.z}, look.metallic, look.roughness, {start.x, start.y, start.z}};
 }
 
 Shading::Surface Shading::surfaceOf(Owner owner) const {
@@ -333,6 +348,12 @@ std::optional<Shade> Shading::constant(Surface& surface) const {
 std::optional<Shade> Shading::constant(Owner owner) const {
     Surface surface = surfaceOf(owner);
     return constant(surface);
+}
+
+std::optional<Shade> Shading::ofOneTexel(Owner owner) const {
+    const Surface surface = surfaceOf(owner);
+    if (!isOneTexel(surface)) return std::nullopt;
+    return shadeAt(surface, {{1.0, 0.0, 0.0}, {}, {}, glm::dvec3(0.0)});
 }
 
 bool Shading::varies(Owner owner) const {

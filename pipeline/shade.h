@@ -11,6 +11,7 @@
 #include "pipeline/project.h"
 #include "pipeline/screen_map.h"
 #include "pipeline/shading_text.h"
+#include "pipeline/surface_lanes.h"
 #include "pipeline/texture.h"
 
 namespace edgewise {
@@ -21,6 +22,12 @@ struct Shade {
     double alpha = 1.0;     ///< opacity: 1 for opaque materials, 0 or 1 for masks, [0, 1] for blended ones
     bool operator==(const Shade&) const = default;
 };
+
+/// Three vertices have one value.
+template <class Vector>
+bool sameAtCorners(const std::vector<Vector>& values, const std::array<std::uint32_t, 3>& vertex) {
+    return values[vertex[0]] == values[vertex[1]] && values[vertex[0]] == values[vertex[2]];
+}
 
 /// Shades owners of one projected scene; refers to all its arguments. Safe to use from many threads.
 /// All methods want an owner that has pieces.
@@ -42,6 +49,7 @@ struct Shade {
 class Shading {
   public:
     class Memo;
+    class Groups;
 
     Shading(const Scene& scene, const ResolvedCamera& camera, const Film& film, const ScreenScene& screen,
             const ScreenPieces& pieces);
@@ -62,6 +70,10 @@ class Shading {
 
     /// The shade of all of the owner where it cannot vary: then closest() and atPoint() give exactly this.
     std::optional<Shade> constant(Owner owner) const;
+
+    /// The shade of all of the owner where constant() has none, but one texel has the colour of all of it:
+    /// then closest() and atPoint() give exactly this.
+    std::optional<Shade> ofOneTexel(Owner owner) const;
 
     /// What the lights see at a point that lies on the owner: unit, eye space, towards the viewer.
     glm::dvec3 normal(Owner owner, glm::dvec2 p_px) const;
@@ -92,6 +104,8 @@ class Shading {
         std::array<glm::dvec3, 3> p_eye{}, normal_eye{};
     };
     using Location = f64::SurfacePoint;
+    /// A lit geometry of one material without maps that vary, under lights that are the same everywhere.
+    std::optional<LaneMaterial> plainLookOf(const Geometry& geometry) const;
     Surface surfaceOf(Owner owner) const;
     void placeCorners(Surface& surface) const;
     void placeNormals(Surface& surface) const;
@@ -132,7 +146,8 @@ class Shading {
     const ScreenPieces& pieces_;
     Lighting lighting_;
     using Pyramids = std::vector<std::optional<MipPyramid>>;
-    Pyramids pyramids_, normal_pyramids_;  ///< by image; those that a material uses
+    Pyramids pyramids_, normal_pyramids_;                   ///< by image; those that a material uses
+    std::vector<std::optional<LaneMaterial>> plain_looks_;  ///< by geometry
 };
 
 /// The surfaces that a thread shaded last: neighbouring pixels ask for the same few.

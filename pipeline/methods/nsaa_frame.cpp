@@ -40,7 +40,8 @@ NsaaFrame::NsaaFrame(const MethodInput& input)
       screen(project(in.scene, in.camera, in.film, pieces, in.progress)),
       shading(in.scene, in.camera, in.film, screen, pieces),
       aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading),
-      dump(in.options.dump_dir, in.film.crop) {
+      dump(in.options.dump_dir, in.film.crop),
+      background_{in.options.background, 0.0} {
     watch.book("project", result.stages);
     checkCancelled(in.progress);
     in.progress.stage("plan", 0);
@@ -155,12 +156,40 @@ Shade NsaaFrame::shade(std::span<const Owner> layers, glm::dvec2 sample_px, Offs
     return {sum.color / count, sum.alpha / count};
 }
 
-void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+/// An entry's shade that no sample decides. What ends a view is there whole: of other alphas composite()
+/// makes 1.
+const Shade* NsaaFrame::known(Owner owner) const {
+    if (owner == kBackground) return &background_;
+    if (isStack(owner) || plan.constant.empty()) return nullptr;
+    const std::optional<Shade>& constant = plan.constant[owner];
+    return constant && constant->alpha == 1.0 ? &*constant : nullptr;
+}
+
+/// The other entries' shades: single triangles that have no points go in groups.
+void NsaaFrame::shadeTile(const WeightTile& tile, const LayerStacks& stacks, TileShades& shades) {
     Shading::Memo& memo = memos_.local();
-    blend(
-        tile, offset(),
-        [&](Owner o, glm::dvec2 sample, Offsets at) { return shade(stacks.layersOf(o), sample, at, memo); },
-        result.image);
+    const bool points = !tile.points.end.empty();
+    shades.by_entry.resize(tile.entries.size());
+    shades.groups.begin(tile.entries.size());
+    forEachEntry(tile, offset(), [&](std::size_t e, glm::dvec2 sample) {
+        const Owner& owner = tile.entries[e].owner;
+        if (known(owner)) return;
+        if (isStack(owner) || (points && !tile.points.of(e).empty()))
+            shades.by_entry[e] = shade(stacks.layersOf(owner), sample, tile.points.of(e), memo);
+        else
+            shades.by_entry[e].alpha = 1.0, shades.groups.add(owner, sample, static_cast<std::uint32_t>(e));
+    });
+    shades.groups.finish(shading, shades.by_entry);
+}
+
+void NsaaFrame::blendTile(const WeightTile& tile, const LayerStacks& stacks) {
+    TileShades& shades = tile_shades_.local();
+    shadeTile(tile, stacks, shades);
+    const auto shadeOf = [&](std::size_t e) -> const Shade& {
+        const Shade* shade = known(tile.entries[e].owner);
+        return shade ? *shade : shades.by_entry[e];
+    };
+    blend(tile, shadeOf, result.image);
 }
 
 void NsaaFrame::bookSeconds(const std::string& name, double seconds) {

@@ -15,6 +15,7 @@
 #include "pipeline/methods/nsaa.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/plan.h"
+#include "pipeline/shade_groups.h"
 
 namespace edgewise {
 
@@ -97,17 +98,25 @@ class NsaaFrame {
     std::map<std::string, std::uint64_t> counts;
 
   private:
+    struct TileShades {
+        Shading::Groups groups;
+        std::vector<Shade> by_entry;  ///< where known() has none
+    };
     VisibleMap visibleMapOf(NsaaStages& stages, const PixelBox& box);
     void renderBand(NsaaStages& stages, const VisibleMap& map, const PixelBox& band);
     void reportOwner(std::span<const Owner> layers, FixedWeight fixed, glm::dvec2 sample, Offsets offsets,
                      PixelReport& out) const;
     Shade shadeTriangle(Owner owner, glm::dvec2 sample_px, Shading::Memo& memo) const;
     Shade shadeAt(std::span<const Owner> layers, glm::dvec2 sample_px, Shading::Memo& memo) const;
+    const Shade* known(Owner owner) const;
+    void shadeTile(const WeightTile& tile, const LayerStacks& stacks, TileShades& shades);
     std::size_t residentBytes() const;
     void fillCounts(std::size_t bands);
 
+    Shade background_;
     std::optional<IdLists> crop_lists_;  ///< what the bands were cut by, until a band is the whole crop
     mutable tbb::enumerable_thread_specific<Shading::Memo> memos_;
+    tbb::enumerable_thread_specific<TileShades> tile_shades_;
 };
 
 /// Says how far the picture is where it is made in several bands.

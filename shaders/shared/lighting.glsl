@@ -50,13 +50,6 @@ EDGEWISE_EXACT_FN Arrival arrivalAt(EyeLight light, dvec3 p_eye) {
     return out_;
 }
 
-/// Unit, from the point to where it is seen from.
-EDGEWISE_EXACT_FN dvec3 viewFrom(dvec3 p_eye, bool everywhere_the_same) {
-    double distance_ = lengthOf(p_eye);
-    if (everywhere_the_same || distance_ == 0.0) return dvec3(0.0, 0.0, 1.0);
-    return -p_eye / distance_;
-}
-
 /// White's share of the rig's ambient light where the occlusion map has `red`.
 EDGEWISE_EXACT_FN double occluded(double ambient, double strength, double red) {
     return ambient * (1.0 + strength * (red - 1.0));

@@ -1,5 +1,6 @@
 // Seconds of one stage, the stages before it done once. On all threads but weights and blend, which have one.
 #include "pipeline/blend.h"
+#include "pipeline/shade_groups.h"
 #include "pipeline/write_image.h"
 #include "tests/bench/prepared.h"
 
@@ -80,12 +81,28 @@ struct Weighed : Prepared {
         }
     }
     void blendAll() {
-        const auto shade = [&](Owner owner, glm::dvec2 sample, std::span<const glm::dvec2>) {
-            if (owner == kBackground) return Shade{options.background, 0.0};
-            if (!plan.constant.empty() && plan.constant[owner]) return *plan.constant[owner];
-            return shading->closest(owner, sample);
-        };
-        for (const WeightTile& tile : weights) blend(tile, glm::dvec2(0.0), shade, image);
+        for (const WeightTile& tile : weights) {
+            shadeTile(tile);
+            blend(
+                tile, [&](std::size_t e) -> const Shade& { return shades[e]; }, image);
+        }
+    }
+
+  private:
+    Shading::Groups groups;
+    std::vector<Shade> shades;
+
+    void shadeTile(const WeightTile& tile) {
+        groups.begin(tile.entries.size());
+        shades.assign(tile.entries.size(), {options.background, 0.0});
+        forEachEntry(tile, glm::dvec2(0.0), [&](std::size_t e, glm::dvec2 sample) {
+            const Owner owner = tile.entries[e].owner;
+            if (owner == kBackground) return;
+            const bool constant = !plan.constant.empty() && plan.constant[owner];
+            shades[e] = constant ? *plan.constant[owner] : Shade{};
+            if (!constant) groups.add(owner, sample, static_cast<std::uint32_t>(e));
+        });
+        groups.finish(*shading, shades);
     }
 };
 

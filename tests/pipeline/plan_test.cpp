@@ -208,6 +208,19 @@ TEST(Plan, ConstantColoursAreFetchedOnlyWhenForced) {
     EXPECT_EQ(fetchedOf("all"), 0);
 }
 
+/// The zone plate's triangles are textured, each from within one texel.
+TEST(Plan, TrianglesWithinATexelAreKnownButNotMerged) {
+    const ShippedPicture picture = test::shippedPicture("zone-plate", 16);
+    const Prefilter filter = makePrefilter("box", {}, {});
+    Progress progress;
+    const RenderOptions options = forcing("");
+    const test::NsaaStages stages({picture.scene, picture.camera, picture.film, filter, options, progress});
+    EXPECT_TRUE(stages.plan().classes.representative.empty());
+    const auto& constant = stages.plan().constant;
+    EXPECT_GT(std::count_if(constant.begin(), constant.end(), [](const auto& c) { return c.has_value(); }),
+              1000);
+}
+
 TEST(Plan, ScenesWithoutConstantColoursSaySo) {
     const ShippedPicture picture = test::shippedPicture("torus-20k", 16);
     const MethodResult result = renderPicture(picture, makePrefilter("box", {}, {}), forcing(""));

@@ -36,6 +36,8 @@ TEST_P(ShadeMemo, ChangesNoBit) {
                         without = shading.closest(t.owner, sample);
             ASSERT_EQ(with.color, without.color) << "seed " << seed << " triangle " << t.owner;
             ASSERT_EQ(with.alpha, without.alpha);
+            const auto texel = shading.ofOneTexel(t.owner);
+            ASSERT_TRUE(!texel || *texel == without);
         }
     }
 }
