@@ -100,16 +100,137 @@ EDGEWISE_FN void keepFirst(int count, EdgeTerms& terms) {
     terms.touched &= wanted, terms.crossed[0] &= wanted, terms.crossed[1] &= wanted;
 }
 
-EDGEWISE_FN void stripTermsOf(const LaneKernel& kernel, const EdgePair* pairs, int count, EdgeTerms& terms) {
-    for (int first = 0; first < count; first += EDGEWISE_LANES)
-        storeTerm(stripTerms(kernel, lineOf(pairs + first)), first, terms);
-}
-
 /// The box: one cell, one node. What is constant there need not be asked in every term.
 EDGEWISE_FN void boxTermsOf(const LaneKernel& kernel, const EdgePair* pairs, int count, EdgeTerms& terms) {
     LaneKernel box = kernel;
     box.table.intervals = box.table.k_count = box.table.rule.count = 1;
-    stripTermsOf(box, pairs, count, terms);
+    for (int first = 0; first < count; first += EDGEWISE_LANES)
+        storeTerm(stripTerms(box, lineOf(pairs + first)), first, terms);
+}
+
+/// A list of pairs, filled up to whole vectors.
+struct PairList {
+    int at[kMostPairs + EDGEWISE_LANES];
+    int count = 0;
+
+    EDGEWISE_FN void add(PairSet set) {
+        for (; set != 0; set &= set - 1) at[count++] = __builtin_ctzll(set);
+    }
+    EDGEWISE_FN void fill() {
+        for (int i = 0; i < EDGEWISE_LANES && count > 0; ++i) at[count + i] = at[count - 1];
+    }
+    EDGEWISE_FN int lanesFrom(int first) const {
+        return count - first < EDGEWISE_LANES ? count - first : EDGEWISE_LANES;
+    }
+};
+
+EDGEWISE_FN real pick(const double* numbers, const int* at) {
+    return gathered([=](int i) __attribute__((always_inline)) { return numbers[at[i]]; });
+}
+
+#ifdef EDGEWISE_FP32
+EDGEWISE_FN void store(work value, int first, float* out) { __builtin_memcpy(out + first, &value, sizeof value); }
+#endif
+EDGEWISE_FN work workAt(const work_number* numbers, int first) {
+    work value;
+    __builtin_memcpy(&value, numbers + first, sizeof value);
+    return value;
+}
+
+/// Lines cut by the side, in the precision of the terms, and the sum of each over the cells so far.
+struct StripPairs {
+    Line line[kMostPairs / EDGEWISE_LANES];
+    SideCut side[kMostPairs / EDGEWISE_LANES];
+    alignas(64) work_number foot_x[kMostPairs], foot_y[kMostPairs], d_x[kMostPairs], d_y[kMostPairs];
+    alignas(64) work_number t_a[kMostPairs], t_b[kMostPairs], len[kMostPairs];
+    alignas(64) work_number inverse_x[kMostPairs], inverse_y[kMostPairs], from[kMostPairs], to[kMostPairs];
+    alignas(64) work_number sum[kMostPairs];
+};
+
+EDGEWISE_FN void cutStrips(const LaneKernel& kernel, const EdgePair* pairs, int count, StripPairs& strips) {
+    for (int first = 0; first < count; first += EDGEWISE_LANES) {
+        const Line line = lineOf(pairs + first);
+        const SideCut side = cutBySide(kernel, line);
+        const CutLine cut = cutLineOf(workLineOf(line), workOf(side.t1), workOf(side.t2));
+        strips.line[first / EDGEWISE_LANES] = line, strips.side[first / EDGEWISE_LANES] = side;
+        store(cut.line.foot_x, first, strips.foot_x), store(cut.line.foot_y, first, strips.foot_y);
+        store(cut.line.d_x, first, strips.d_x), store(cut.line.d_y, first, strips.d_y);
+        store(cut.line.t_a, first, strips.t_a), store(cut.line.t_b, first, strips.t_b);
+        store(cut.line.len, first, strips.len);
+        store(cut.inverse_x, first, strips.inverse_x), store(cut.inverse_y, first, strips.inverse_y);
+        store(cut.whole.from, first, strips.from), store(cut.whole.to, first, strips.to);
+        store(splatWork(0), first, strips.sum);
+    }
+}
+
+/// number(k) of each lane's pair makes the cut line.
+template <class Numbers>
+EDGEWISE_FN CutLine cutLineFrom(const StripPairs& strips, const Numbers& numbers) {
+    CutLine cut;
+    cut.line.foot_x = numbers(strips.foot_x), cut.line.foot_y = numbers(strips.foot_y);
+    cut.line.d_x = numbers(strips.d_x), cut.line.d_y = numbers(strips.d_y);
+    cut.line.t_a = numbers(strips.t_a), cut.line.t_b = numbers(strips.t_b), cut.line.len = numbers(strips.len);
+    cut.inverse_x = numbers(strips.inverse_x), cut.inverse_y = numbers(strips.inverse_y);
+    cut.rightwards = nonZeroWork(cut.line.d_x) > numberOf(0.0);
+    cut.whole.from = numbers(strips.from), cut.whole.to = numbers(strips.to);
+    return cut;
+}
+
+EDGEWISE_FN work pickWork(const work_number* numbers, const int* at) {
+    work_number picked[EDGEWISE_LANES];
+    for (int i = 0; i < EDGEWISE_LANES; ++i) picked[i] = numbers[at[i]];
+    return workAt(picked, 0);
+}
+
+EDGEWISE_FN PairSet laneSetOf(work_mask m) {
+#if defined(EDGEWISE_FP32) && EDGEWISE_LANES > 1
+    return laneSet(__builtin_convertvector(m, mask));
+#else
+    return laneSet(m);
+#endif
+}
+
+/// A cell's terms of the pairs that meet it, side by side.
+EDGEWISE_FN void addCell(const TableView& table, int i, int j, PairSet met, StripPairs& strips) {
+    PairList list;
+    list.add(met);
+    list.fill();
+    for (int first = 0; first < list.count; first += EDGEWISE_LANES) {
+        const int* at = list.at + first;
+        const CutLine cut = cutLineFrom(
+            strips, [=](const work_number* numbers) __attribute__((always_inline)) { return pickWork(numbers, at); });
+        const LinePart part = rowPart(table, cut, j, columnPart(table, cut, i));
+        scatter(pickWork(strips.sum, at) + partTerm(table, cut, i, j, part), at, list.lanesFrom(first), strips.sum);
+    }
+}
+
+/// stripSum() of all pairs, cell by cell in the same order.
+EDGEWISE_FN void sumCells(const TableView& table, int count, StripPairs& strips) {
+    for (int i = 0; i < table.intervals; ++i) {
+        PairSet met[kMostIntervals] = {};
+        for (int first = 0; first < count; first += EDGEWISE_LANES) {
+            const CutLine cut = cutLineFrom(
+                strips, [=](const work_number* numbers) __attribute__((always_inline)) { return workAt(numbers, first); });
+            const LinePart column = columnPart(table, cut, i);
+            if (!anyLane(column.from < column.to)) continue;
+            for (int j = 0; j < table.intervals; ++j) {
+                const LinePart part = rowPart(table, cut, j, column);
+                met[j] |= laneSetOf(part.from < part.to) << first;
+            }
+        }
+        for (int j = 0; j < table.intervals; ++j)
+            if (met[j] != 0) addCell(table, i, j, met[j] & ~PairSet{0} >> (kMostPairs - count), strips);
+    }
+}
+
+EDGEWISE_FN void stripTermsOf(const LaneKernel& kernel, const EdgePair* pairs, int count, EdgeTerms& terms) {
+    StripPairs strips;
+    cutStrips(kernel, pairs, count, strips);
+    sumCells(kernel.table, count, strips);
+    for (int first = 0; first < count; first += EDGEWISE_LANES) {
+        const int at = first / EDGEWISE_LANES;
+        storeTerm(stripTerm(kernel, strips.line[at], strips.side[at], workAt(strips.sum, first)), first, terms);
+    }
 }
 
 /// What is left to do for fan terms once lines are cut: by pair, then for those alone that need it.
@@ -133,26 +254,6 @@ EDGEWISE_FN void cutPairs(const LaneKernel& kernel, const EdgePair* pairs, int c
         store(cut.entry, first, cuts.place[0]), store(cut.exit, first, cuts.place[1]);
         store(cut.in_a, first, cuts.in_a), store(cut.in_b, first, cuts.in_b);
     }
-}
-
-/// A list of pairs, filled up to whole vectors.
-struct PairList {
-    int at[kMostPairs + EDGEWISE_LANES];
-    int count = 0;
-
-    EDGEWISE_FN void add(PairSet set) {
-        for (; set != 0; set &= set - 1) at[count++] = __builtin_ctzll(set);
-    }
-    EDGEWISE_FN void fill() {
-        for (int i = 0; i < EDGEWISE_LANES && count > 0; ++i) at[count + i] = at[count - 1];
-    }
-    EDGEWISE_FN int lanesFrom(int first) const {
-        return count - first < EDGEWISE_LANES ? count - first : EDGEWISE_LANES;
-    }
-};
-
-EDGEWISE_FN real pick(const double* numbers, const int* at) {
-    return gathered([=](int i) __attribute__((always_inline)) { return numbers[at[i]]; });
 }
 
 /// Crossings of slot 0 or 1: those alone, side by side.
