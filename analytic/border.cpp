@@ -115,8 +115,17 @@ void sortCrossings(Crossings& c) {
     const auto key = [](const BorderCrossing& x) {
         return std::tie(x.order, x.position, x.before, x.after, x.doubt);
     };
-    std::sort(c.begin(), c.end(),
-              [&](const BorderCrossing& a, const BorderCrossing& b) { return key(a) < key(b); });
+    const auto before = [&](const BorderCrossing& a, const BorderCrossing& b) {
+        return a.order != b.order ? a.order < b.order : key(a) < key(b);
+    };
+    if (c.size() > 16) return std::sort(c.begin(), c.end(), before);
+    for (std::size_t i = 1; i < c.size(); ++i) {  // by insertion: mostly they are two
+        if (!before(c[i], c[i - 1])) continue;
+        const BorderCrossing moved = c[i];
+        std::size_t at = i;
+        for (; at > 0 && before(moved, c[at - 1]); --at) c[at] = c[at - 1];
+        c[at] = moved;
+    }
 }
 
 /// The label that a cluster leads to: it is entered once more often than it is left.
@@ -188,6 +197,20 @@ bool chainsInOrder(const Crossings& c, Owner label, bool circle) {
     return !circle || label == c.front().before;
 }
 
+/// Whether every crossing changes the label and none may be confused with the next: what startLabel() makes
+/// of these is the label before the first one, without further ado. Twice the doubts and more, for the
+/// roundings of their sums.
+bool changeApart(const Crossings& c) {
+    double doubt = 0.0;
+    for (const BorderCrossing& x : c) {
+        if (x.before == x.after) return false;
+        doubt = std::max(doubt, x.doubt);
+    }
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (!(c[i].order - c[i - 1].order > 4 * doubt)) return false;
+    return true;
+}
+
 /// The owner behind the last crossing, where `start` is the one before the first: labels are entered as often
 /// as they are left, but for these two. None where the map is open.
 std::optional<Owner> endLabel(const Crossings& c, Owner start) {
@@ -240,6 +263,11 @@ int shareBorder(Crossings& c, bool circle, Owner base, std::vector<BorderShare>&
     sortCrossings(c);
     if (circle) cutInLongestGap(c);
     const std::int64_t from = circle ? c.front().position : 0, to = from + kWhole;
+    const Owner first = c.front().before;
+    if (chainsInOrder(c, first, circle) && changeApart(c)) {
+        shareInOrder(c, first, from, to, shares);
+        return 0;
+    }
     const Owner start = startLabel(c, base, circle);
     if (chainsInOrder(c, start, circle)) {
         shareInOrder(c, start, from, to, shares);

@@ -11,12 +11,12 @@
 
 namespace edgewise {
 
-#define EDGEWISE_DECLARE_TERMS(isa)                                      \
-    namespace isa {                                                      \
-    void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&);     \
-    }                                                                    \
-    namespace isa##_fp32 {                                               \
-        void edgeTerms(const LaneKernel&, const EdgeInput&, EdgeTerms&); \
+#define EDGEWISE_DECLARE_TERMS(isa)                                          \
+    namespace isa {                                                          \
+    void edgeTerms(const LaneKernel&, const EdgePair*, int, EdgeTerms&);     \
+    }                                                                        \
+    namespace isa##_fp32 {                                                   \
+        void edgeTerms(const LaneKernel&, const EdgePair*, int, EdgeTerms&); \
     }
 EDGEWISE_DECLARE_TERMS(scalar)
 EDGEWISE_DECLARE_TERMS(sse2)
@@ -144,8 +144,7 @@ EdgeTermsFunction chooseEdgeTerms(Precision precision) {
         if (EdgeTermsFunction function = edgeTermsFor(forced, precision)) return function;
         throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
     }
-    // four lanes skip more of what a support does not meet than eight: 10 % faster or even in every bench
-    for (const char* name : {"avx2", "avx512", "sse2"})
+    for (const char* name : {"avx512", "avx2", "sse2"})
         if (EdgeTermsFunction function = edgeTermsFor(name, precision)) return function;
     return edgeTermsFor("scalar", precision);
 }

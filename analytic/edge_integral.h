@@ -33,7 +33,8 @@ struct EdgeKernel {
 /// between its clip points); with its crossings' positions <= 16 u absolute, separable kernels likewise.
 /// With kFp32 u is 2^-24 and the fixed point does not count.
 /// Measured over nine adversarial categories of edges: tests/studies/term_bounds; its numbers are at [E9].
-using EdgeTermsFunction = void (*)(const LaneKernel&, const EdgeInput&, EdgeTerms&);
+/// Of up to kMostPairs pairs: a term does not depend on what pairs share its call.
+using EdgeTermsFunction = void (*)(const LaneKernel&, const EdgePair* pairs, int count, EdgeTerms&);
 
 /// The best form that this machine runs, or the one that EDGEWISE_ISA=scalar|sse2|avx2|avx512 names.
 EdgeTermsFunction chooseEdgeTerms(Precision precision = Precision::kFp64);

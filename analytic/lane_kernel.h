@@ -51,26 +51,37 @@ struct LaneKernel {
     TableView table;
 };
 
-/// A segment, its line and the first of eight samples, px. Names as in VisibleSegment and CarrierLine.
+/// A segment and its line, px. Names as in VisibleSegment and CarrierLine.
 struct EdgeInput {
-    double sample_x, sample_y;
     double a_x, a_y, a_rest_x, a_rest_y, b_x, b_y, b_rest_x, b_rest_y, len;
     double origin_x, origin_y, nx_hi, nx_lo, ny_hi, ny_lo, c_hi, c_lo, line_length, direction_x, direction_y;
 };
 
-/// For eight samples. A crossing with the border: radial, its angle over 2 pi in (-1/2, 1/2]; separable, K(y)
-/// on the side x = sample.x + R. In fixed point 2^-60.  Going along the border (by angle, by y) an entry [0]
-/// leads from the segment's left owner to its right one, an exit [1] from right to left. [E12], [E13]
+/// A segment and a sample.
+struct EdgePair {
+    const EdgeInput* edge;
+    double sample_x, sample_y;
+};
+
+/// Pairs that one call takes at most.
+inline constexpr int kMostPairs = 64;
+
+/// Bit i is pair i.
+using PairSet = std::uint64_t;
+
+/// By pair. A crossing with the border: radial, its angle over 2 pi in (-1/2, 1/2]; separable, K(y) on the
+/// side x = sample.x + R. In fixed point 2^-60.  Going along the border (by angle, by y) an entry [0] leads
+/// from the segment's left owner to its right one, an exit [1] from right to left. [E12], [E13]
 struct EdgeTerms {
-    alignas(64) std::int64_t value[8];
-    alignas(64) std::int64_t position[2][8];
-    alignas(64) double order[2][8];  ///< what crossings are sorted by: the angle in turns; y, px
-    alignas(64) double doubt[2][8];  ///< how far rounding may have moved `order`
+    alignas(64) std::int64_t value[kMostPairs];
+    alignas(64) std::int64_t position[2][kMostPairs];
+    alignas(64) double order[2][kMostPairs];  ///< what crossings are sorted by: the angle in turns; y, px
+    alignas(64) double doubt[2][kMostPairs];  ///< how far rounding may have moved `order`
     /// Sorts the crossings of segments that part at a vertex so near to the border that `order` cannot: along
     /// the border over across it, on the way from the vertex through the border.
-    alignas(64) double spread[2][8];
-    unsigned touched;  ///< lanes whose support meets the segment: the others' value is 0
-    unsigned crossed[2];
+    alignas(64) double spread[2][kMostPairs];
+    PairSet touched;  ///< pairs whose segment meets the sample's support: the others' value is 0
+    PairSet crossed[2];
 };
 
 }  // namespace edgewise

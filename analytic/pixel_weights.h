@@ -2,24 +2,30 @@
 // out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <vector>
 
+#include "analytic/lane_kernel.h"
+#include "analytic/owner_weight.h"
 #include "analytic/precision.h"
 #include "analytic/prefilter.h"
 #include "analytic/visible_segment.h"
 
 namespace edgewise {
 
-/// A weight in fixed point, 2^-60 a unit: sums are exact in any order.
-using FixedWeight = std::int64_t;
-inline constexpr int kWeightBits = 60;
+/// Samples first .. last of a row; none where last < first.
+struct LaneRange {
+    int first, last;
 
-struct OwnerWeight {
-    Owner owner;
-    FixedWeight weight;
+    /// Those of `count` that lie within [low, high], px from the first.
+    static LaneRange within(double low, double high, int count) {
+        const double from = std::max(0.0, low), to = std::min(count - 1.0, high);
+        const int first = static_cast<int>(from);  // no std::ceil: a call on machines without SSE 4
+        return {first + (first < from), to < 0.0 ? -1 : static_cast<int>(to)};
+    }
 };
 
 /// Weights of up to kLanes samples at first + (i, 0) px.  begin(), add() every segment that may touch a
@@ -27,7 +33,7 @@ struct OwnerWeight {
 /// does not depend on the order of add(), nor on which samples share a call.
 class PixelWeights {
   public:
-    static constexpr int kLanes = 8;
+    static constexpr int kLanes = 32;
 
     explicit PixelWeights(const Prefilter& filter, Precision precision = Precision::kFp64);
     ~PixelWeights();
@@ -38,6 +44,9 @@ class PixelWeights {
 
     /// `left` and `right` replace the segment's owners (the caller may merge owners that shade alike).
     void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
+    /// The same where the caller knows what samples' supports it may touch, likewise within 2^-30 px. The
+    /// edge is read until finish() returns.
+    void add(const EdgeInput& edge, Owner left, Owner right, LaneRange lanes);
 
     /// base_owner[i] owns the point (sample.x + R + 0, sample.y), where the support's border lies: it is
     /// asked only when nothing certainly changes hands on that border and no segment comes within 2^-31 px of

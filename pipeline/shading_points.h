@@ -39,13 +39,14 @@ struct ShadingPoints {
 class ShadingPointFinder {
   public:
     static constexpr int kTriesPerPoint = 16;
+    static constexpr int kLanes = OwnerTable::kLanes;
 
     ShadingPointFinder(const Prefilter& filter, const ShadingChoice& choice);
 
     /// Whether the choice needs points at all.
     bool active() const { return centroid_ || samples_ > 0; }
 
-    /// Samples at first + (i, 0) px, i < count <= 8; then every segment that may touch a support.
+    /// Samples at first + (i, 0) px, i < count <= kLanes; then every segment that may touch a support.
     void begin(glm::dvec2 first_sample_px, int count);
     void add(const VisibleSegment& segment, const CarrierLine& line, Owner left, Owner right);
 
@@ -84,7 +85,7 @@ class ShadingPointFinder {
     OwnerTable moment_x_, moment_y_;  ///< units of R 2^-60
     std::vector<Edge> edges_;
     std::vector<OwnerWeight> area_entries_;
-    std::size_t area_offset_[PixelWeights::kLanes + 1] = {};
+    std::size_t area_offset_[kLanes + 1] = {};
     std::vector<std::vector<glm::dvec2>> found_;  ///< by entry of one sample
 };
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 
+#include "analytic/edge_input.h"
 #include "analytic/row_owners.h"
 #include "analytic/segment_tiles.h"
 
@@ -21,6 +23,21 @@ glm::dvec2 rounded(const FinePoint& p) {
 
 f64::Span spanWithin(glm::dvec2 a, glm::dvec2 b, double y0, double y1) {
     return f64::spanWithin(a.x, a.y, b.x, b.y, y0, y1);
+}
+
+template <class Item>
+void fetch(const Item& item) {
+    const char* begin = reinterpret_cast<const char*>(&item);
+    for (std::size_t at = 0; at < sizeof(Item); at += 64) __builtin_prefetch(begin + at);
+    __builtin_prefetch(begin + sizeof(Item) - 1);
+}
+
+/// A tile's segments lie far apart in the map, and their lines elsewhere: both are asked for before their
+/// turn.
+void fetchAhead(const VisibleMap& map, std::span<const std::uint32_t> segments, std::size_t k) {
+    constexpr std::size_t kSegmentAhead = 16, kLineAhead = 8;
+    if (k + kSegmentAhead < segments.size()) fetch(map.segments[segments[k + kSegmentAhead]]);
+    if (k + kLineAhead < segments.size()) fetch(map.lines[map.segments[segments[k + kLineAhead]].line]);
 }
 
 /// The lattice of weight tiles over a box of pixels.
@@ -117,21 +134,27 @@ void WeightWorker::collectRows(const VisibleMap& map, std::span<const std::uint3
     const int height = box.height();
     if (rows_.size() < static_cast<std::size_t>(height)) rows_.resize(static_cast<std::size_t>(height));
     for (std::vector<Span>& row : rows_) row.clear();
+    edges_.clear();
     const double reach = radius_ + kReachSlackPx, first_y = box.y0 + 0.5 + offset_y_px;
-    for (const std::uint32_t id : segments) {
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+        fetchAhead(map, segments, k);
+        const std::uint32_t id = segments[k];
         const VisibleSegment& s = map.segments[id];
         const Owner left = classes.of(s.left), right = classes.of(s.right);
         if (left == right && options_.skip_cancelling) continue;
         const glm::dvec2 a = rounded(s.a), b = rounded(s.b);
         // A row more on either side, for rounding: the comparison below decides.
         const double last = height - 1.0;
-        const int begin = static_cast<int>(std::clamp(std::floor(a.y - reach - first_y), 0.0, last));
-        const int end = static_cast<int>(std::clamp(std::ceil(b.y + reach - first_y), 0.0, last));
+        const int begin = static_cast<int>(std::clamp(a.y - reach - first_y - 1.0, 0.0, last));
+        const int end = static_cast<int>(std::clamp(b.y + reach - first_y + 1.0, 0.0, last));
+        const double slope = f64::slopeOf(a.x, a.y, b.x, b.y);
+        const auto index = static_cast<std::uint32_t>(edges_.size());
+        edges_.push_back({edgeInput(s, map.lines[s.line]), id, left, right});
         for (int row = begin; row <= end; ++row) {
             const double y = first_y + row;
             if (a.y > y + reach || b.y < y - reach) continue;
-            const auto [x0, x1] = spanWithin(a, b, y - reach, y + reach);
-            rows_[static_cast<std::size_t>(row)].push_back({id, left, right, x0 - reach, x1 + reach});
+            const auto [x0, x1] = f64::spanAlong(a.x, a.y, b.x, b.y, slope, y - reach, y + reach);
+            rows_[static_cast<std::size_t>(row)].push_back({index, x0 - reach, x1 + reach});
         }
     }
 }
@@ -143,16 +166,20 @@ void WeightWorker::beginGroup(glm::dvec2 first, int count) {
 
 void WeightWorker::runGroup(const VisibleMap& map, const OwnerClasses& classes, std::span<const Span> spans,
                             glm::dvec2 first, int row, int count, const Owner* base, WeightTile& out) {
-    bool begun = false;
+    std::uint64_t met = 0;  // samples whose support a segment may touch
     for (const Span& span : spans) {
-        if (span.x1 < first.x || span.x0 > first.x + (count - 1)) continue;
-        if (!begun) beginGroup(first, count), begun = true;
-        const VisibleSegment& s = map.segments[span.segment];
-        weights_.add(s, map.lines[s.line], span.left, span.right);
-        if (points_.active()) points_.add(s, map.lines[s.line], span.left, span.right);
+        const LaneRange lanes = LaneRange::within(span.x0 - first.x, span.x1 - first.x, count);
+        if (lanes.last < lanes.first) continue;
+        if (met == 0) beginGroup(first, count);
+        met |= (std::uint64_t{2} << lanes.last) - (std::uint64_t{1} << lanes.first);
+        const Edge& edge = edges_[span.edge];
+        weights_.add(edge.input, edge.left, edge.right, lanes);
+        if (!points_.active()) continue;
+        const VisibleSegment& s = map.segments[edge.segment];
+        points_.add(s, map.lines[s.line], edge.left, edge.right);
     }
-    if (!begun && options_.skip_interior) {
-        interior_pixels_ += static_cast<std::uint64_t>(count);
+    if (options_.skip_interior) interior_pixels_ += static_cast<std::uint64_t>(count - std::popcount(met));
+    if (met == 0 && options_.skip_interior) {
         for (int k = 0; k < count; ++k) {
             out.entries.push_back({base[k], FixedWeight{1} << kWeightBits});
             out.offset.push_back(out.entries.size());
@@ -160,7 +187,7 @@ void WeightWorker::runGroup(const VisibleMap& map, const OwnerClasses& classes, 
         }
         return;
     }
-    if (!begun) beginGroup(first, count);
+    if (met == 0) beginGroup(first, count);
     std::size_t offset[PixelWeights::kLanes + 1];
     weights_.finish(base, out.entries, offset);
     for (int k = 0; k < count; ++k) out.offset.push_back(offset[k + 1]);
@@ -178,14 +205,18 @@ void WeightWorker::run(const VisibleMap& map, std::span<const std::uint32_t> seg
     out.points.clear();
     collectRows(map, segments, classes, box, offset_px.y);
     Owner base[PixelWeights::kLanes];
+    const int group = points_.active() ? ShadingPointFinder::kLanes : PixelWeights::kLanes;
     for (int y = box.y0; y < box.y1; ++y) {
         const double sample_y = y + 0.5 + offset_px.y;
-        for (int x = box.x0; x < box.x1; x += PixelWeights::kLanes) {
-            const int count = std::min(PixelWeights::kLanes, box.x1 - x);
+        for (int x = box.x0; x < box.x1; x += group) {
+            const int count = std::min(group, box.x1 - x);
             const glm::dvec2 first(x + 0.5 + offset_px.x, sample_y);
             const int row = y + static_cast<int>(offset_px.y);
-            ownersAlongRow(map, row, first.x + radius_, count,
-                           [&](int k, Owner o) { base[k] = classes.of(o); });
+            Owner last = kBackground, last_class = kBackground;
+            ownersAlongRow(map, row, first.x + radius_, count, [&](int k, Owner o) {
+                if (o != last) last = o, last_class = classes.of(o);
+                base[k] = last_class;
+            });
             runGroup(map, classes, rows_[static_cast<std::size_t>(y - box.y0)], first, row, count, base, out);
         }
     }

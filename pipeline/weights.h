@@ -59,9 +59,13 @@ class WeightWorker {
     std::uint64_t interiorPixels() const { return interior_pixels_; }
 
   private:
-    struct Span {
+    struct Edge {
+        EdgeInput input;
         std::uint32_t segment;
         Owner left, right;
+    };
+    struct Span {
+        std::uint32_t edge;
         double x0, x1;  ///< of the part within reach of the row
     };
     void collectRows(const VisibleMap& map, std::span<const std::uint32_t> segments,
@@ -74,6 +78,7 @@ class WeightWorker {
     WeightOptions options_;
     PixelWeights weights_;
     ShadingPointFinder points_;
+    std::vector<Edge> edges_;              ///< of the tile
     std::vector<std::vector<Span>> rows_;  ///< of the tile, from its top
     std::uint64_t interior_pixels_ = 0;
 };

@@ -19,9 +19,9 @@ EDGEWISE_FN BasePoint noBasePoint() { return BasePoint(EDGEWISE_INIT EDGEWISE_RE
 EDGEWISE_FN bool isKnown(EDGEWISE_IN(BasePoint) base) { return base.distance2 < EDGEWISE_REAL(1e300); }
 
 /// The sign of cross(a - sample, b - sample), from the line.
-EDGEWISE_FN double sideOfSample(EDGEWISE_IN(EdgeInput) seen, double x) {
+EDGEWISE_FN double sideOfSample(EDGEWISE_IN(EdgeInput) seen, double x, double y) {
     dd along_x = ddMulReal(dd(EDGEWISE_INIT seen.nx_hi, seen.nx_lo EDGEWISE_END), x - seen.origin_x);
-    dd along_y = ddMulReal(dd(EDGEWISE_INIT seen.ny_hi, seen.ny_lo EDGEWISE_END), seen.sample_y - seen.origin_y);
+    dd along_y = ddMulReal(dd(EDGEWISE_INIT seen.ny_hi, seen.ny_lo EDGEWISE_END), y - seen.origin_y);
     return ddAdd(ddAdd(along_x, along_y), dd(EDGEWISE_INIT seen.c_hi, seen.c_lo EDGEWISE_END)).hi;
 }
 
@@ -31,14 +31,14 @@ EDGEWISE_FN bool isNearer(EDGEWISE_IN(BasePoint) p, EDGEWISE_IN(BasePoint) q) {
     return p.owner < q.owner;
 }
 
-/// Takes the segment into account, as the sample at x sees it; the result does not depend on the order of the calls.
+/// Takes the segment into account, as the sample at (x, y) sees it; the result does not depend on the order of the calls.
 EDGEWISE_FN void considerBase(EDGEWISE_INOUT(BasePoint) base, bool radial, double R, EDGEWISE_IN(EdgeInput) seen, double x,
-                              uint left, uint right) {
+                              double y, uint left, uint right) {
     if (seen.len * seen.len <= kOnePoint2) return;
     double a_x = (seen.a_x - x) + seen.a_rest_x;
-    double a_y = (seen.a_y - seen.sample_y) + seen.a_rest_y;
+    double a_y = (seen.a_y - y) + seen.a_rest_y;
     double b_x = (seen.b_x - x) + seen.b_rest_x;
-    double b_y = (seen.b_y - seen.sample_y) + seen.b_rest_y;
+    double b_y = (seen.b_y - y) + seen.b_rest_y;
     double near = smaller(kLookupPx, R * EDGEWISE_REAL(9.5367431640625e-07));
     double t = (R - a_x) * seen.direction_x + -a_y * seen.direction_y;
     double across = (R - a_x) * seen.direction_y - -a_y * seen.direction_x;
@@ -58,7 +58,7 @@ EDGEWISE_FN void considerBase(EDGEWISE_INOUT(BasePoint) base, bool radial, doubl
     // the border lies beyond the segment (+x) when it is inside, else on its near side
     double way = a_inside ? EDGEWISE_REAL(1.0) : EDGEWISE_REAL(-1.0);
     double cosine = at_end ? way * (first ? seen.direction_x : -seen.direction_x) : EDGEWISE_REAL(0.0);
-    bool sample_is_left = radial ? sideOfSample(seen, x) > EDGEWISE_REAL(0.0) : true;
+    bool sample_is_left = radial ? sideOfSample(seen, x, y) > EDGEWISE_REAL(0.0) : true;
     BasePoint fresh = BasePoint(EDGEWISE_INIT distance2, cosine, sample_is_left != a_inside ? left : right EDGEWISE_END);
     if (isNearer(fresh, base)) base = fresh;
 }

@@ -119,7 +119,7 @@ const double kTurnsDoubt = EDGEWISE_REAL(4.440892098500626e-16);
 #endif
 
 /// Where the line at t meets the circle.
-EDGEWISE_FN BorderPoint circleCrossing(EDGEWISE_KERNEL_IN Line line, real t, real in_a, real in_b, mask crossed, bool is_exit) {
+EDGEWISE_FN BorderPoint circleCrossing(EDGEWISE_KERNEL_IN Line line, real t, real in_a, real in_b, mask crossed, mask is_exit) {
     BorderPoint point = noCrossing();
     point.crossed = crossed;
     if (!anyLane(crossed)) return point;
@@ -170,6 +170,13 @@ EDGEWISE_FN DiskCut cutByDisk(EDGEWISE_KERNEL_IN Line line) {
     return cut;
 }
 
+EDGEWISE_FN mask entersDisk(EDGEWISE_IN(DiskCut) cut) {
+    return (EDGEWISE_REAL(1.0) - cut.in_a) * (cut.in_b + cut.through) > EDGEWISE_REAL(0.5);
+}
+EDGEWISE_FN mask leavesDisk(EDGEWISE_IN(DiskCut) cut) {
+    return (EDGEWISE_REAL(1.0) - cut.in_b) * (cut.in_a + cut.through) > EDGEWISE_REAL(0.5);
+}
+
 EDGEWISE_FN EdgeTerm fanTerms(EDGEWISE_KERNEL_IN Line line) {
     DiskCut cut = cutByDisk(EDGEWISE_KERNEL line);
     EdgeTerm term;
@@ -183,9 +190,9 @@ EDGEWISE_FN EdgeTerm fanTerms(EDGEWISE_KERNEL_IN Line line) {
     piece.t2 = workOf(cut.t2);
     piece.len = workOf(cut.len);
     term.value = flushTiny(fanTerm(EDGEWISE_KERNEL workOf(line.h), piece));
-    mask enters = (EDGEWISE_REAL(1.0) - cut.in_a) * (cut.in_b + cut.through) > EDGEWISE_REAL(0.5);
-    mask leaves = (EDGEWISE_REAL(1.0) - cut.in_b) * (cut.in_a + cut.through) > EDGEWISE_REAL(0.5);
-    term.entry = circleCrossing(EDGEWISE_KERNEL line, cut.entry, cut.in_a, cut.in_b, enters, false);
-    term.exit = circleCrossing(EDGEWISE_KERNEL line, cut.exit, cut.in_a, cut.in_b, leaves, true);
+    mask never = cut.in_a < EDGEWISE_REAL(0.0);
+    mask always = cut.in_a >= EDGEWISE_REAL(0.0);
+    term.entry = circleCrossing(EDGEWISE_KERNEL line, cut.entry, cut.in_a, cut.in_b, entersDisk(cut), never);
+    term.exit = circleCrossing(EDGEWISE_KERNEL line, cut.exit, cut.in_a, cut.in_b, leavesDisk(cut), always);
     return term;
 }

@@ -1,5 +1,6 @@
 // A visible segment and its line as a sample sees them. In double whatever the precision of what follows: distance, clip
-// points and the order of crossings. [E2] Needs EdgeInput: analytic/lane_kernel.h, or edge_kernel.glsl.
+// points and the order of crossings. [E2] Needs SeenEdge, an EdgeInput
+// of numbers that are `real`: analytic/edge_lanes.inl, or edge_input.glsl.
 
 struct Line {
     real h;                   // signed distance of the line, px
@@ -24,16 +25,16 @@ struct EdgeTerm {
     BorderPoint entry, exit;  // on the way from a to b
 };
 
-EDGEWISE_FN Line lineAt(EDGEWISE_IN(EdgeInput) seen, real x) {
+EDGEWISE_FN Line lineAt(EDGEWISE_IN(SeenEdge) seen, real x, real y) {
     Line line;
-    real y = splat(seen.sample_y);
     real dx = x - seen.origin_x;  // exact: both are multiples of 2^-32 below 2^21
     real dy = y - seen.origin_y;
-    dd nx = dd(EDGEWISE_INIT splat(seen.nx_hi), splat(seen.nx_lo) EDGEWISE_END);
-    dd ny = dd(EDGEWISE_INIT splat(seen.ny_hi), splat(seen.ny_lo) EDGEWISE_END);
-    dd c = dd(EDGEWISE_INIT splat(seen.c_hi), splat(seen.c_lo) EDGEWISE_END);
+    dd nx = dd(EDGEWISE_INIT seen.nx_hi, seen.nx_lo EDGEWISE_END);
+    dd ny = dd(EDGEWISE_INIT seen.ny_hi, seen.ny_lo EDGEWISE_END);
+    dd c = dd(EDGEWISE_INIT seen.c_hi, seen.c_lo EDGEWISE_END);
     dd crossed = ddAdd(ddMulReal(nx, dx), ddMulReal(ny, dy));
-    if (seen.c_hi != EDGEWISE_REAL(0.0) || seen.c_lo != EDGEWISE_REAL(0.0)) crossed = ddAdd(crossed, c);  // + 0 keeps the bits
+    mask apart = EDGEWISE_EITHER(seen.c_hi != EDGEWISE_REAL(0.0), seen.c_lo != EDGEWISE_REAL(0.0));
+    if (anyLane(apart)) crossed = ddAdd(crossed, c);  // + 0 keeps the bits
     line.h = crossed.hi / seen.line_length;
     real a_x = seen.a_x - x;  // exact, as the next three
     real a_y = seen.a_y - y;
@@ -43,23 +44,12 @@ EDGEWISE_FN Line lineAt(EDGEWISE_IN(EdgeInput) seen, real x) {
     line.a_y = a_y + seen.a_rest_y;
     line.b_x = b_x + seen.b_rest_x;
     line.b_y = b_y + seen.b_rest_y;
-    line.d_x = splat(seen.direction_x);
-    line.d_y = splat(seen.direction_y);
+    line.d_x = seen.direction_x;
+    line.d_y = seen.direction_y;
     line.t_a = (a_x * line.d_x + a_y * line.d_y) + (seen.a_rest_x * line.d_x + seen.a_rest_y * line.d_y);
     line.t_b = (b_x * line.d_x + b_y * line.d_y) + (seen.b_rest_x * line.d_x + seen.b_rest_y * line.d_y);
-    line.len = splat(seen.len);
+    line.len = seen.len;
     return line;
-}
-
-/// Whether the segment's box meets the box of the supports of samples from x_first to x_last; rounding has its margin.
-EDGEWISE_FN bool boxesMeet(EDGEWISE_IN(EdgeInput) seen, double radius, double x_first, double x_last) {
-    double reach = radius * EDGEWISE_REAL(1.0000000000009095) + EDGEWISE_REAL(2.3283064365386963e-10);
-    double x0 = x_first - reach;
-    double x1 = x_last + reach;
-    double y0 = seen.sample_y - reach;
-    double y1 = seen.sample_y + reach;
-    return !((seen.a_x < x0 && seen.b_x < x0) || (seen.a_x > x1 && seen.b_x > x1) || (seen.a_y < y0 && seen.b_y < y0) ||
-             (seen.a_y > y1 && seen.b_y > y1));
 }
 
 /// A number near 0 that can be divided by.

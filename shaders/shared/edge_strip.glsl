@@ -153,22 +153,38 @@ EDGEWISE_FN work stripSum(EDGEWISE_IN(TableView) table, EDGEWISE_IN(WorkLine) li
 }
 #endif
 
-EDGEWISE_FN EdgeTerm stripTerms(EDGEWISE_KERNEL_IN Line line) {
+/// The segment against the side x = R: which ends are right of it (0 or 1), where it crosses, and what is left of it.
+struct SideCut {
+    real right_a, right_b, t_side, t1, t2;
+};
+
+EDGEWISE_FN SideCut cutBySide(EDGEWISE_KERNEL_IN Line line) {
     double R = kernel.radius;
     real one = splat(EDGEWISE_REAL(1.0));
     real none = splat(EDGEWISE_REAL(0.0));
-    real right_a = line.a_x > R ? one : none;
-    real right_b = line.b_x > R ? one : none;
+    SideCut cut;
+    cut.right_a = line.a_x > R ? one : none;
+    cut.right_b = line.b_x > R ? one : none;
     // where the line meets x = R, kept within the segment: one point for the term and for the side's share
     real at_side = (R - line.h * line.d_y) * (EDGEWISE_REAL(1.0) / nonZero(line.d_x));
-    real t_side = smaller(larger(at_side, line.t_a), line.t_b);
-    real t1 = right_a > EDGEWISE_REAL(0.5) ? t_side : line.t_a;
-    real t2 = right_b > EDGEWISE_REAL(0.5) ? t_side : line.t_b;
-    mask left_part = right_a + right_b < EDGEWISE_REAL(1.5);
-    WorkLine work_line = workLineOf(line);
-    work sum = stripSum(kernel.table, work_line, workOf(t1), workOf(left_part ? t2 : t1));
+    cut.t_side = smaller(larger(at_side, line.t_a), line.t_b);
+    cut.t1 = cut.right_a > EDGEWISE_REAL(0.5) ? cut.t_side : line.t_a;
+    cut.t2 = cut.right_b > EDGEWISE_REAL(0.5) ? cut.t_side : line.t_b;
+    mask left_part = cut.right_a + cut.right_b < EDGEWISE_REAL(1.5);
+    cut.t2 = left_part ? cut.t2 : cut.t1;
+    return cut;
+}
+
+/// The term whose integral is `sum`.
+EDGEWISE_FN EdgeTerm stripTerm(EDGEWISE_KERNEL_IN Line line, SideCut cut, work sum) {
+    double R = kernel.radius;
+    real one = splat(EDGEWISE_REAL(1.0));
+    real none = splat(EDGEWISE_REAL(0.0));
+    real right_a = cut.right_a;
+    real right_b = cut.right_b;
+    real t_side = cut.t_side;
     EdgeTerm term;
-    term.value = flushTiny(sum * work_line.d_y);
+    term.value = flushTiny(sum * workOf(line.d_y));
     term.entry = noCrossing();
     term.exit = noCrossing();
     real y = t_side * line.d_y - line.h * line.d_x;
@@ -192,4 +208,10 @@ EDGEWISE_FN EdgeTerm stripTerms(EDGEWISE_KERNEL_IN Line line) {
     term.exit.doubt = term.entry.doubt;
     term.exit.spread = term.entry.spread;
     return term;
+}
+
+EDGEWISE_FN EdgeTerm stripTerms(EDGEWISE_KERNEL_IN Line line) {
+    SideCut cut = cutBySide(EDGEWISE_KERNEL line);
+    work sum = stripSum(kernel.table, workLineOf(line), workOf(cut.t1), workOf(cut.t2));
+    return stripTerm(EDGEWISE_KERNEL line, cut, sum);
 }

@@ -21,7 +21,7 @@ bits truncated(double x) { return int64_t(x); }
 EdgeInput inputOf(uint id) {
     GpuSegment s = segments[id];
     GpuCarrierLine l = lines[s.line];
-    return EdgeInput(sampleX(), sampleY(), s.a_grid[0], s.a_grid[1], s.a_rest[0], s.a_rest[1], s.b_grid[0], s.b_grid[1],
+    return EdgeInput(s.a_grid[0], s.a_grid[1], s.a_rest[0], s.a_rest[1], s.b_grid[0], s.b_grid[1],
                      s.b_rest[0], s.b_rest[1], s.len, l.origin_x, l.origin_y, l.nx_hi, l.nx_lo, l.ny_hi, l.ny_lo, l.c_hi,
                      l.c_lo, l.len, l.direction_x, l.direction_y);
 }
@@ -39,11 +39,11 @@ void leaveNote(uint at, double first, double second, uint kind, GpuPair pair) {
 
 void considerBaseOf(uint at, GpuPair pair, EdgeInput seen) {
     double near = 9.313225746154785e-10lf;  // 2^-30 px: considerBase() looks no farther than 2^-31
-    if (smaller(seen.a_y, seen.b_y) > seen.sample_y + near || larger(seen.a_y, seen.b_y) < seen.sample_y - near) return;
-    double base_x = seen.sample_x + push.radius;
+    if (smaller(seen.a_y, seen.b_y) > sampleY() + near || larger(seen.a_y, seen.b_y) < sampleY() - near) return;
+    double base_x = sampleX() + push.radius;
     if (smaller(seen.a_x, seen.b_x) > base_x + near || larger(seen.a_x, seen.b_x) < base_x - near) return;
     BasePoint base = noBasePoint();
-    considerBase(base, kForm != kStripTerm, push.radius, seen, seen.sample_x, kNoteBaseLeft, kNoteBaseRight);
+    considerBase(base, kForm != kStripTerm, push.radius, seen, sampleX(), sampleY(), kNoteBaseLeft, kNoteBaseRight);
     if (isKnown(base)) leaveNote(at, base.distance2, base.cosine, base.owner, pair);
 }
 
@@ -60,7 +60,7 @@ void main() {
     readKernel(push.radius, push.inner_radius);
     EdgeInput seen = inputOf(pair.segment);
     considerBaseOf(at, pair, seen);
-    Line line = lineAt(seen, seen.sample_x);
+    Line line = lineAt(seen, sampleX(), sampleY());
     EdgeTerm term;
     if (kForm == kStripTerm)
         term = stripTerms(line);

@@ -80,11 +80,12 @@ EdgeTerms termsOf(const EdgeKernel& kernel, Edge edge, EdgeTermsFunction functio
     const VisibleSegment& s = m.segment;
     const CarrierLine& l = m.line;
     EdgeTerms terms{};
-    function(kernel.lanes,
-             {sample.x, sample.y, s.a.grid.x,    s.a.grid.y,   0,       0,       s.b.grid.x, s.b.grid.y, 0,
-              0,        s.length, l.origin.x,    l.origin.y,   l.nx_hi, l.nx_lo, l.ny_hi,    l.ny_lo,    0,
-              0,        l.length, l.direction.x, l.direction.y},
-             terms);
+    const EdgeInput input{
+        s.a.grid.x, s.a.grid.y, 0,          0,          s.b.grid.x,    s.b.grid.y,   0,
+        0,          s.length,   l.origin.x, l.origin.y, l.nx_hi,       l.nx_lo,      l.ny_hi,
+        l.ny_lo,    0,          0,          l.length,   l.direction.x, l.direction.y};
+    const EdgePair pair{&input, sample.x, sample.y};
+    function(kernel.lanes, &pair, 1, terms);
     return terms;
 }
 

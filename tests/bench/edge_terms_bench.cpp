@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "analytic/edge_input.h"
 #include "analytic/edge_integral.h"
 #include "tests/analytic/triangle_map.h"
 
@@ -48,26 +49,21 @@ void pixelWeights(benchmark::State& state, const std::string& name, Precision pr
         static_cast<double>(weights.terms()) / static_cast<double>(state.iterations() * 1000);
 }
 
-EdgeInput inputOf(glm::dvec2 sample, const MapSegment& of) {
-    const VisibleSegment& s = of.segment;
-    const CarrierLine& l = of.line;
-    return {sample.x,   sample.y,   s.a.grid.x,    s.a.grid.y,   s.a.rest.x, s.a.rest.y,
-            s.b.grid.x, s.b.grid.y, s.b.rest.x,    s.b.rest.y,   s.length,   l.origin.x,
-            l.origin.y, l.nx_hi,    l.nx_lo,       l.ny_hi,      l.ny_lo,    l.c_hi,
-            l.c_lo,     l.length,   l.direction.x, l.direction.y};
-}
-
 void closedForm(benchmark::State& state, const std::string& name, EdgeTermsFunction edge_terms) {
     const Prefilter filter = makePrefilter(name, {}, {});
     const EdgeKernel kernel(filter);
     std::vector<EdgeInput> inputs;
     for (const MapSegment& s : segmentsAround({400.5, 300.5}, filter.radius))
-        inputs.push_back(inputOf({400.5, 300.5}, s));
+        inputs.push_back(edgeInput(s.segment, s.line));
+    std::vector<EdgePair> pairs;
+    for (const EdgeInput& input : inputs)
+        for (int i = 0; i < 8; ++i) pairs.push_back({&input, 400.5 + i, 300.5});
     EdgeTerms terms;
     double touched = 0;
     for (auto _ : state)
-        for (const EdgeInput& input : inputs) {
-            edge_terms(kernel.lanes, input, terms);
+        for (std::size_t at = 0; at < pairs.size(); at += kMostPairs) {
+            const auto count = std::min(pairs.size() - at, std::size_t{kMostPairs});
+            edge_terms(kernel.lanes, pairs.data() + at, static_cast<int>(count), terms);
             benchmark::DoNotOptimize(terms);
             touched += std::popcount(terms.touched);
         }

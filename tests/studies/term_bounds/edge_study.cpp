@@ -64,7 +64,9 @@ class EdgeStudy {
         const StudyKernel& kernel = *kernels_[k];
         const ObservedTerm seen = observe(kernel.kernel, edge);
         EdgeTerms product{};
-        product_terms_(kernel.kernel.lanes, inputOf(edge), product);
+        const EdgeInput input = inputOf(edge);
+        const EdgePair pair{&input, kSample.x, kSample.y};
+        product_terms_(kernel.kernel.lanes, &pair, 1, product);
         result_.unequal_bits += !sameBits(seen, product);
         if (!radial_)
             screen(Claim::kStrip, k, edge, seen);

@@ -26,35 +26,20 @@ Edge canonical(const Edge& e) {
 EdgeInput inputOf(const Edge& e) {
     const glm::dvec2 a = e.a + kSample, b = e.b + kSample;  // exact: on the grid
     const CarrierLine l = carrierLine({LineRef::edge(0, 0), a, b});
-    return {kSample.x,
-            kSample.y,
-            a.x,
-            a.y,
-            0.0,
-            0.0,
-            b.x,
-            b.y,
-            0.0,
-            0.0,
-            distance(gridPoint(a), gridPoint(b)),
-            l.origin.x,
-            l.origin.y,
-            l.nx_hi,
-            l.nx_lo,
-            l.ny_hi,
-            l.ny_lo,
-            l.c_hi,
-            l.c_lo,
-            l.length,
-            l.direction.x,
-            l.direction.y};
+    return {a.x,           a.y,          0.0,
+            0.0,           b.x,          b.y,
+            0.0,           0.0,          distance(gridPoint(a), gridPoint(b)),
+            l.origin.x,    l.origin.y,   l.nx_hi,
+            l.nx_lo,       l.ny_hi,      l.ny_lo,
+            l.c_hi,        l.c_lo,       l.length,
+            l.direction.x, l.direction.y};
 }
 
 ObservedTerm observe(const EdgeKernel& kernel, const Edge& edge) {
     ObservedTerm out{};
     const EdgeInput input = inputOf(edge);
-    if (!isa::boxesMeet(input, kernel.lanes.radius, input.sample_x, input.sample_x)) return out;
-    const isa::Line line = isa::lineAt(input, input.sample_x);
+    const EdgePair pair{&input, kSample.x, kSample.y};
+    const isa::Line line = isa::lineOf(&pair);
     const bool strip = kernel.lanes.form == kStripTerm;
     const isa::EdgeTerm term =
         strip ? isa::stripTerms(kernel.lanes, line) : isa::fanTerms(kernel.lanes, line);
