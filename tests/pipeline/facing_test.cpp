@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
 #include <cstdio>
 #include <random>
 
@@ -33,67 +34,89 @@ int exactSide(const std::array<Exact, 3>& p, bool perspective) {
     Exact u, v, n;
     for (int k = 0; k < 3; ++k) u[k] = p[1][k] - p[0][k], v[k] = p[2][k] - p[0][k];
     for (int k = 0; k < 3; ++k) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-    return perspective ? -(n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2]).sign() : n[2].sign();
+    const cpp_rational d = n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2];
+    return perspective ? -d.sign() : n[2].sign();
+}
+
+struct Maps {
+    glm::dmat4 world_from_file{1.0}, camera_from_world{1.0};
+};
+
+/// Both lead the file's origin to the eye exactly, and, for a parallel view, its z axis to the eye's.
+Maps makeMaps(std::mt19937& random, bool perspective, bool moved) {
+    std::uniform_real_distribution<double> spread(-1.0, 1.0);
+    Maps maps;
+    for (glm::dmat4* m : {&maps.world_from_file, &maps.camera_from_world})
+        for (int k = 0; k < 3; ++k)
+            for (int row = 0; row < 3; ++row)
+                (*m)[k][row] = perspective || k < 2 || row == 2 ? spread(random) : 0.0;
+    if (!moved) return maps;
+    // There and back by a power of two, in which the file's small coordinates lose their digits.
+    maps.world_from_file = glm::dmat4(1.0);
+    maps.world_from_file[3].x = 1024.0;
+    for (int row = 0; row < 3; ++row)
+        maps.camera_from_world[3][row] = -1024.0 * maps.camera_from_world[0][row];
+    return maps;
+}
+
+/// A triangle in the plane x = 0, which the eye sees edge-on, but for one corner: its normal leans by `off`.
+std::array<glm::vec3, 3> nearlyEdgeOn(std::mt19937& random, float off) {
+    std::uniform_real_distribution<float> spread(-1.0f, 1.0f);
+    std::array<glm::vec3, 3> corners;
+    for (glm::vec3& p : corners) p = {0.0f, spread(random), spread(random)};
+    corners[random() % 3].x = off;
+    return corners;
+}
+
+int sideBy(const Maps& maps, bool perspective, const std::array<glm::vec3, 3>& file) {
+    Geometry geometry = test::makeGeometry({file}, maps.world_from_file);
+    std::array<glm::dvec3, 3> eye;
+    for (int k = 0; k < 3; ++k)
+        eye[k] = glm::dvec3(maps.camera_from_world * glm::dvec4(geometry.position_world[k], 1.0));
+    ScreenMap map;
+    map.perspective = perspective, map.scale_px = 1024.0;
+    const Facing facing(test::makeScene({geometry}), maps.camera_from_world, map);
+    return facing.side(0, eye[0], eye[1], eye[2]);
+}
+
+int truth(const Maps& maps, bool perspective, const std::array<glm::vec3, 3>& file) {
+    std::array<Exact, 3> exact;
+    for (int k = 0; k < 3; ++k) exact[k] = toEye(maps.camera_from_world, maps.world_from_file, file[k]);
+    return exactSide(exact, perspective);
 }
 
 struct Seen {
-    std::size_t sure = 0, unsure = 0, nearly_edge_on = 0;
+    std::size_t sure = 0, unsure = 0, edge_on = 0;
 };
 
-/// Triangles whose planes pass the eye at `distance` times their size, or at none.
-Seen judge(std::mt19937& random, bool perspective, double distance) {
-    std::uniform_real_distribution<double> spread(-1.0, 1.0);
+Seen judge(bool perspective, bool moved) {
+    std::mt19937 random(5);
     Seen seen;
-    for (int i = 0; i < 400; ++i) {
-        glm::dmat4 world_from_file(1.0), camera_from_world(1.0);
-        for (int k = 0; k < 4; ++k)
-            for (int row = 0; row < 3; ++row) {
-                world_from_file[k][row] = spread(random) * (k == 3 ? 1e3 : 1.0);
-                camera_from_world[k][row] = spread(random) * (k == 3 ? 1e3 : 1.0);
-            }
-        const glm::dmat4 file_from_eye = glm::inverse(camera_from_world * world_from_file);
-        const double size = std::ldexp(1.0, i % 12 - 6);
-        const glm::dvec3 a(spread(random), spread(random), -5.0 - spread(random));
-        const glm::dvec3 along = perspective ? a : glm::dvec3(0, 0, 1);
-        const glm::dvec3 off(distance * spread(random), distance * spread(random), 0.0);
-        const glm::dvec3 b = a + size * (along + off), c = a + size * glm::dvec3(spread(random), 1.0, 0.0);
-        std::array<glm::vec3, 3> file;
-        for (int k = 0; k < 3; ++k)
-            file[k] = glm::vec3(file_from_eye * glm::dvec4(k == 0 ? a : k == 1 ? b : c, 1.0));
-        Geometry geometry = test::makeGeometry({file});
-        geometry.world_from_file = world_from_file;
-        std::array<glm::dvec3, 3> eye;
-        std::array<Exact, 3> exact;
-        for (int k = 0; k < 3; ++k) {
-            geometry.position_world[k] =
-                glm::dvec3(world_from_file * glm::dvec4(geometry.position_file[k], 1.0));
-            eye[k] = glm::dvec3(camera_from_world * glm::dvec4(geometry.position_world[k], 1.0));
-            exact[k] = toEye(camera_from_world, world_from_file, geometry.position_file[k]);
+    for (int i = 0; i < 4000; ++i) {
+        const Maps maps = makeMaps(random, perspective, moved);
+        const float off = i % 40 == 0 ? 0.0f : std::ldexp(i % 2 ? 1.0f : -1.0f, -(i % 80));
+        const auto file = nearlyEdgeOn(random, off);
+        const int side = sideBy(maps, perspective, file), exact = truth(maps, perspective, file);
+        if (side != 0) {
+            EXPECT_EQ(side, exact) << "triangle " << i << ", off by " << off;
         }
-        ScreenMap map;
-        map.perspective = perspective, map.scale_px = 1024.0;
-        const int side =
-            Facing(test::makeScene({geometry}), camera_from_world, map).side(0, eye[0], eye[1], eye[2]);
-        const int truth = exactSide(exact, perspective);
-        if (side != 0) EXPECT_EQ(side, truth) << "triangle " << i;
         ++(side != 0 ? seen.sure : seen.unsure);
+        seen.edge_on += exact == 0;
     }
+    std::printf("seed 5, %s%s: %zu sure, %zu not, %zu edge-on\n", perspective ? "perspective" : "parallel",
+                moved ? ", moved" : "", seen.sure, seen.unsure, seen.edge_on);
     return seen;
 }
 
+/// Triangles from 1 to 2^-79 off being seen edge-on, and some exactly so.
 TEST(Facing, IsRightWhereItIsSure) {
-    std::mt19937 random(5);
-    for (const bool perspective : {true, false}) {
-        std::size_t sure = 0, unsure = 0;
-        for (int e = 0; e >= -60; e -= 4) {
-            const Seen seen = judge(random, perspective, std::ldexp(1.0, e));
-            sure += seen.sure, unsure += seen.unsure;
+    for (const bool perspective : {true, false})
+        for (const bool moved : {false, true}) {
+            const Seen seen = judge(perspective, moved);
+            EXPECT_GT(seen.sure, 1000u);
+            EXPECT_GT(seen.unsure, 1000u);
+            EXPECT_GE(seen.edge_on, 100u);
         }
-        std::printf("seed 5, %s: %zu sure, %zu not\n", perspective ? "perspective" : "parallel", sure,
-                    unsure);
-        EXPECT_GT(sure, 1000u);
-        EXPECT_GT(unsure, 1000u);
-    }
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ TEST(PointTable, NumbersPointsByTheirFirstAppearance) {
         const auto [at, fresh] = known.try_emplace(key(points[i]), static_cast<std::uint32_t>(known.size()));
         ASSERT_EQ(table.ids()[i], at->second) << "point " << i;
         ASSERT_EQ(table.points()[at->second], points[i]);
-        if (fresh) ASSERT_EQ(table.firstPlaces()[at->second], i);
+        if (fresh) {
+            ASSERT_EQ(table.firstPlaces()[at->second], i);
+        }
     }
     ASSERT_EQ(table.points().size(), known.size());
     ASSERT_LT(known.size(), points.size() / 2 + points.size() / 4);
