@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "analytic/expansion.h"
+#include "pipeline/huge_pages.h"
 #include "pipeline/plane_key.h"
 #include "pipeline/runs.h"
 
@@ -113,8 +114,8 @@ void hashPlanes(const Geometry& g, std::size_t begin, std::size_t end, std::uint
     }
 }
 
-std::vector<std::uint64_t> planeHashes(const Scene& scene) {
-    std::vector<std::uint64_t> hashes(scene.triangle_count);
+ZeroedVector<std::uint64_t> planeHashes(const Scene& scene) {
+    ZeroedVector<std::uint64_t> hashes(scene.triangle_count);
     for (const Geometry& geometry : scene.geometry)
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024),
                           [&](const auto& range) {
@@ -127,14 +128,14 @@ std::vector<std::uint64_t> planeHashes(const Scene& scene) {
 /// Candidates dealt into buckets by their hash, and sorted there, where they fit a cache.
 struct Buckets {
     std::vector<std::size_t> first;
-    std::vector<Candidate> candidates;
+    ZeroedVector<Candidate> candidates;
 
     std::span<Candidate> of(std::size_t bucket) {
         return std::span(candidates).subspan(first[bucket], first[bucket + 1] - first[bucket]);
     }
 };
 
-Buckets dealt(const std::vector<std::uint64_t>& hashes) {
+Buckets dealt(const ZeroedVector<std::uint64_t>& hashes) {
     const std::size_t buckets = std::bit_ceil(hashes.size() / 512 + 1);
     std::vector<std::atomic<std::uint32_t>> histogram(buckets);
     const auto forAll = [&](const auto& visit) {
@@ -158,7 +159,8 @@ Buckets dealt(const std::vector<std::uint64_t>& hashes) {
 /// By triangle: the first triangle of its plane, kNone without area, and whether it is wound against the
 /// plane's representative; where the first triangle is itself, the representative.
 struct Leaders {
-    std::vector<std::uint32_t> leader, widest;
+    std::vector<std::uint32_t> leader;
+    ZeroedVector<std::uint32_t> widest;
     std::vector<std::uint8_t> reversed;
 };
 
@@ -211,7 +213,7 @@ void leadRun(const Scene& scene, std::span<const Candidate> run, std::vector<Fou
 
 Leaders findLeaders(const Scene& scene, Buckets buckets) {
     Leaders out{std::vector<std::uint32_t>(scene.triangle_count, kNone),
-                std::vector<std::uint32_t>(scene.triangle_count),
+                ZeroedVector<std::uint32_t>(scene.triangle_count),
                 std::vector<std::uint8_t>(scene.triangle_count)};
     const auto lead = [&](std::span<Candidate> all, std::vector<FoundPlane>& planes) {
         std::sort(all.begin(), all.end());

@@ -7,6 +7,7 @@
 #include "pipeline/eye_plane.h"
 #include "pipeline/facing.h"
 #include "pipeline/grid_orientation.h"
+#include "pipeline/huge_pages.h"
 #include "pipeline/opacity.h"
 #include "pipeline/runs.h"
 #include "pipeline/weld.h"
@@ -65,8 +66,8 @@ class EyeVertices {
         }
     }
 
-    std::vector<glm::dvec3> eyePoints(const glm::dmat4& camera_from_world) const {
-        std::vector<glm::dvec3> p_eye(first_.back());
+    ZeroedVector<glm::dvec3> eyePoints(const glm::dmat4& camera_from_world) const {
+        ZeroedVector<glm::dvec3> p_eye(first_.back());
         eachVertex([&](std::size_t place, const glm::dvec3& p_world) {
             p_eye[place] = glm::dvec3(camera_from_world * glm::dvec4(p_world, 1.0));
         });
@@ -76,8 +77,8 @@ class EyeVertices {
     const Scene& scene_;
     std::vector<std::size_t> first_;  ///< by geometry: the place of its first vertex
     PointTable table_;
-    std::vector<std::uint8_t> outcode_;  ///< by id
-    std::vector<glm::dvec2> p_px_;       ///< by id
+    ZeroedVector<std::uint8_t> outcode_;  ///< by id
+    ZeroedVector<glm::dvec2> p_px_;       ///< by id
 };
 
 /// What becomes of a triangle.
@@ -170,7 +171,7 @@ class Projector {
         const std::vector<std::size_t> before =
             countedBefore(seen_.size(), [&](std::size_t i) { return seen_[i] != 0; });
         number_.resize(seen_.size());
-        std::vector<FilePlane> seen(before.back());
+        ZeroedVector<FilePlane> seen(before.back());
         forRuns(seen_.size(), [&](std::size_t run, std::size_t begin, std::size_t end) {
             auto number = static_cast<std::uint32_t>(before[run]);
             for (std::size_t i = begin; i < end; ++i)
@@ -339,9 +340,9 @@ class Projector {
     EyePlanes planes_;
     Facing facing_;
     std::vector<Opacity> opacity_;
-    std::vector<Fate> fate_;             ///< by owner
-    std::vector<std::uint8_t> seen_;     ///< by plane of the file: something of it is seen
-    std::vector<std::uint32_t> number_;  ///< by plane of the file, where it is seen: its place on the screen
+    ZeroedVector<Fate> fate_;             ///< by owner
+    ZeroedVector<std::uint8_t> seen_;     ///< by plane of the file: something of it is seen
+    ZeroedVector<std::uint32_t> number_;  ///< by plane of the file, where it is seen: its place on the screen
 };
 
 }  // namespace

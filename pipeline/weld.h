@@ -4,7 +4,9 @@
 #include <bit>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <vector>
+#include <span>
+
+#include "pipeline/huge_pages.h"
 
 namespace edgewise {
 
@@ -12,28 +14,27 @@ namespace edgewise {
 class PointTable {
   public:
     /// Ids count up in order of first appearance.
-    explicit PointTable(std::vector<glm::dvec3> points);
+    explicit PointTable(ZeroedVector<glm::dvec3> points);
 
     /// By place in the points that it was made of.
-    const std::vector<std::uint32_t>& ids() const { return ids_; }
+    const ZeroedVector<std::uint32_t>& ids() const { return ids_; }
     /// By id: the first place that has it.
-    const std::vector<std::uint32_t>& firstPlaces() const { return first_places_; }
+    const ZeroedVector<std::uint32_t>& firstPlaces() const { return first_places_; }
     /// By id.
-    const std::vector<glm::dvec3>& points() const { return points_; }
+    const ZeroedVector<glm::dvec3>& points() const { return points_; }
 
     /// Of a further point, which may be a new one.
     std::uint32_t id(const glm::dvec3& point);
 
   private:
-    static constexpr std::uint32_t kFree = 0xffffffffu;
-
-    void findFirsts(const std::vector<glm::dvec3>& all);
+    void findFirsts(std::span<const glm::dvec3> all);
+    std::uint32_t placed(std::span<const glm::dvec3> all, std::uint32_t place, std::size_t slot);
     std::size_t home(const glm::dvec3& p) const;
     void grow();
 
-    std::vector<glm::dvec3> points_;
-    std::vector<std::uint32_t> ids_, first_places_;
-    std::vector<std::uint32_t> slots_;  ///< ids; while the table is made, places
+    ZeroedVector<glm::dvec3> points_;
+    ZeroedVector<std::uint32_t> ids_, first_places_;
+    ZeroedVector<std::uint32_t> slots_;  ///< ids, from 1; while the table is made, places; 0: free
 };
 
 }  // namespace edgewise

@@ -17,7 +17,7 @@ std::tuple<double, double, double> key(const glm::dvec3& p) {
 TEST(PointTable, NumbersPointsByTheirFirstAppearance) {
     std::mt19937 random(9);
     std::uniform_int_distribution<int> lattice(-20, 20);
-    std::vector<glm::dvec3> points;
+    ZeroedVector<glm::dvec3> points;
     for (int i = 0; i < 100000; ++i)
         points.emplace_back(lattice(random) * 0.1, lattice(random) * (i % 2 ? -0.1 : 0.1), lattice(random));
     PointTable table(points);
