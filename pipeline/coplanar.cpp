@@ -11,8 +11,9 @@
 #include <tuple>
 
 #include "analytic/expansion.h"
+#include "pipeline/huge_pages.h"
 #include "pipeline/plane_key.h"
-#include "pipeline/scan.h"
+#include "pipeline/runs.h"
 
 namespace edgewise {
 namespace {
@@ -88,171 +89,187 @@ struct ExactPlane {
     }
 };
 
+/// A triangle's place among those of its scene that may share its plane: half of a hash of node, instance and
+/// plane, and its index. The other half says which bucket it lies in.
 struct Candidate {
-    std::uint64_t key = 0;
-    std::uint32_t node = 0, instance = 0, index = 0;
-    std::uint32_t geometry = kNone, triangle = 0;  ///< geometry = kNone: no area
-    auto order() const { return std::tie(node, instance, key, index); }
+    std::uint32_t hash, index;
+    bool operator<(const Candidate& other) const {
+        return std::tie(hash, index) < std::tie(other.hash, other.index);
+    }
 };
 
-/// Candidates of triangles [begin, end) of a geometry.
-void makeCandidates(const Scene& scene, std::uint32_t geometry, std::size_t begin, std::size_t end,
-                    Candidate* out) {
-    const Geometry& g = scene.geometry[geometry];
+constexpr std::uint64_t kNoArea = 0;
+
+/// Hashes of triangles [begin, end) of a geometry; kNoArea for those.
+void hashPlanes(const Geometry& g, std::size_t begin, std::size_t end, std::uint64_t* out) {
     std::vector<Corners> corners;
     corners.reserve(end - begin);
     for (std::size_t t = begin; t < end; ++t)
         corners.push_back(fileCorners(g, static_cast<std::uint32_t>(t)));
     const auto keys = planeKeys(corners);
+    const std::uint64_t place = (std::uint64_t{g.node} << 32 | g.instance) * 0x9e3779b97f4a7c15u;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto triangle = static_cast<std::uint32_t>(begin + i);
-        const std::uint32_t place = hasArea(corners[i]) ? geometry : kNone;
-        out[i] = {keys[i].value_or(0), g.node, g.instance, g.first_triangle + triangle, place, triangle};
+        const std::uint64_t hash = (keys[i].value_or(0) ^ place) * 0xd6e8feb86659fd93u;
+        out[i] = hasArea(corners[i]) ? std::max<std::uint64_t>(hash ^ hash >> 32, 1) : kNoArea;
     }
 }
 
-/// Those of one plane side by side: dealt into buckets by their hash, and sorted there, where they fit a
-/// cache.
-std::vector<Candidate> grouped(const std::vector<Candidate>& all) {
-    const std::size_t buckets = std::bit_ceil(all.size() / 64 + 1);
-    const auto bucketOf = [&](const Candidate& c) {
-        const std::uint64_t place = std::uint64_t{c.node} << 32 | c.instance;
-        return ((c.key ^ place * 0x9e3779b97f4a7c15u) * 0xd6e8feb86659fd93u >> 32) & (buckets - 1);
-    };
+ZeroedVector<std::uint64_t> planeHashes(const Scene& scene) {
+    ZeroedVector<std::uint64_t> hashes(scene.triangle_count);
+    for (const Geometry& geometry : scene.geometry)
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024),
+                          [&](const auto& range) {
+                              hashPlanes(geometry, range.begin(), range.end(),
+                                         hashes.data() + geometry.first_triangle + range.begin());
+                          });
+    return hashes;
+}
+
+/// Candidates dealt into buckets by their hash, and sorted there, where they fit a cache.
+struct Buckets {
+    std::vector<std::size_t> first;
+    ZeroedVector<Candidate> candidates;
+
+    std::span<Candidate> of(std::size_t bucket) {
+        return std::span(candidates).subspan(first[bucket], first[bucket + 1] - first[bucket]);
+    }
+};
+
+Buckets dealt(const ZeroedVector<std::uint64_t>& hashes) {
+    const std::size_t buckets = std::bit_ceil(hashes.size() / 512 + 1);
     std::vector<std::atomic<std::uint32_t>> histogram(buckets);
     const auto forAll = [&](const auto& visit) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), 4096), [&](const auto& range) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hashes.size(), 4096), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i)
-                if (all[i].geometry != kNone) visit(all[i], histogram[bucketOf(all[i])]);
+                if (hashes[i] != kNoArea) visit(i, histogram[hashes[i] & (buckets - 1)]);
         });
     };
-    forAll([](const Candidate&, auto& count) { count.fetch_add(1, std::memory_order_relaxed); });
-    std::vector<std::uint32_t> counts(buckets);
-    for (std::size_t b = 0; b < buckets; ++b) counts[b] = histogram[b].load(std::memory_order_relaxed);
-    const std::vector<std::size_t> first = offsetsFromCounts(counts);
+    forAll([](std::size_t, auto& count) { count.fetch_add(1, std::memory_order_relaxed); });
+    Buckets out{offsetsFromCounts(histogram), {}};
     for (std::size_t b = 0; b < buckets; ++b)
-        histogram[b].store(static_cast<std::uint32_t>(first[b]), std::memory_order_relaxed);
-    std::vector<Candidate> out(first.back());
-    forAll([&](const Candidate& c, auto& next) { out[next.fetch_add(1, std::memory_order_relaxed)] = c; });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets, 64), [&](const auto& range) {
-        for (std::size_t b = range.begin(); b < range.end(); ++b)
-            std::sort(out.begin() + static_cast<std::ptrdiff_t>(first[b]),
-                      out.begin() + static_cast<std::ptrdiff_t>(first[b + 1]),
-                      [](const Candidate& a, const Candidate& c) { return a.order() < c.order(); });
+        histogram[b].store(static_cast<std::uint32_t>(out.first[b]), std::memory_order_relaxed);
+    out.candidates.resize(out.first.back());
+    forAll([&](std::size_t i, auto& next) {
+        out.candidates[next.fetch_add(1, std::memory_order_relaxed)] = {
+            static_cast<std::uint32_t>(hashes[i] >> 32), static_cast<std::uint32_t>(i)};
     });
     return out;
 }
 
-std::vector<Candidate> groupedCandidates(const Scene& scene) {
-    std::vector<Candidate> all(scene.triangle_count);
-    for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
-        const Geometry& geometry = scene.geometry[g];
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024),
-                          [&](const auto& range) {
-                              makeCandidates(scene, g, range.begin(), range.end(),
-                                             all.data() + geometry.first_triangle + range.begin());
-                          });
-    }
-    return grouped(all);
+/// By triangle: the first triangle of its plane, kNone without area, and whether it is wound against the
+/// plane's representative; where the first triangle is itself, the representative.
+struct Leaders {
+    std::vector<std::uint32_t> leader;
+    ZeroedVector<std::uint32_t> widest;
+    std::vector<std::uint8_t> reversed;
+};
+
+struct FoundPlane {
+    std::uint32_t node, instance, leader, widest;
+    double size;
+    ExactPlane plane;
+};
+
+Corners cornersOf(const Scene& scene, std::uint32_t index) {
+    const TriangleRef at = findTriangle(scene, index);
+    return fileCorners(scene.geometry[at.geometry], at.triangle);
 }
 
-/// For each candidate of a run of equal keys the first triangle of its plane. One plane a run, unless keys
-/// collide.
-void groupRun(const Scene& scene, std::span<const Candidate> run, std::vector<std::uint32_t>& leader_of) {
-    if (run.size() == 1) return void(leader_of[run[0].index] = run[0].index);
-    std::vector<std::pair<ExactPlane, std::uint32_t>> planes;
+/// Whether the normals of two triangles of one plane point against each other.
+bool opposed(const Corners& p, const Corners& q) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (const int sign = normalSign(p, axis); sign != 0) return sign != normalSign(q, axis);
+    return false;
+}
+
+/// The planes of candidates with equal hashes: one, unless hashes collide.
+void leadRun(const Scene& scene, std::span<const Candidate> run, std::vector<FoundPlane>& planes,
+             Leaders& out) {
+    planes.clear();
     for (const Candidate& candidate : run) {
-        const Corners p = fileCorners(scene.geometry[candidate.geometry], candidate.triangle);
-        const auto found = std::find_if(planes.begin(), planes.end(),
-                                        [&](const auto& plane) { return plane.first.contains(p); });
-        if (found != planes.end()) {
-            leader_of[candidate.index] = found->second;
-        } else {
-            leader_of[candidate.index] = candidate.index;
-            planes.emplace_back(ExactPlane(p), candidate.index);
+        const TriangleRef at = findTriangle(scene, candidate.index);
+        const Geometry& g = scene.geometry[at.geometry];
+        const Corners p = fileCorners(g, at.triangle);
+        const double size = roughSize(p);
+        const auto found = std::ranges::find_if(planes, [&](const FoundPlane& f) {
+            return f.node == g.node && f.instance == g.instance && f.plane.contains(p);
+        });
+        if (found == planes.end()) {
+            planes.push_back({g.node, g.instance, candidate.index, candidate.index, size, ExactPlane(p)});
+            out.leader[candidate.index] = candidate.index;
+            continue;
         }
+        out.leader[candidate.index] = found->leader;
+        if (size > found->size) found->widest = candidate.index, found->size = size;
+    }
+    for (const FoundPlane& found : planes) out.widest[found.leader] = found.widest;
+    for (const Candidate& candidate : run) {
+        const std::uint32_t widest = out.widest[out.leader[candidate.index]];
+        if (widest != candidate.index)
+            out.reversed[candidate.index] =
+                opposed(cornersOf(scene, widest), cornersOf(scene, candidate.index));
     }
 }
 
-std::vector<std::uint32_t> findLeaders(const Scene& scene, const std::vector<Candidate>& sorted) {
-    std::vector<std::uint32_t> leader_of(scene.triangle_count, kNone);
-    auto sameRun = [&](std::size_t i) {
-        return i > 0 && sorted[i].node == sorted[i - 1].node &&
-               sorted[i].instance == sorted[i - 1].instance && sorted[i].key == sorted[i - 1].key;
+Leaders findLeaders(const Scene& scene, Buckets buckets) {
+    Leaders out{std::vector<std::uint32_t>(scene.triangle_count, kNone),
+                ZeroedVector<std::uint32_t>(scene.triangle_count),
+                std::vector<std::uint8_t>(scene.triangle_count)};
+    const auto lead = [&](std::span<Candidate> all, std::vector<FoundPlane>& planes) {
+        std::sort(all.begin(), all.end());
+        for (std::size_t begin = 0, end; begin < all.size(); begin = end) {
+            end = begin + 1;
+            while (end < all.size() && all[end].hash == all[begin].hash) ++end;
+            const std::uint32_t first = all[begin].index;
+            if (end > begin + 1)
+                leadRun(scene, all.subspan(begin, end - begin), planes, out);
+            else
+                out.leader[first] = out.widest[first] = first;
+        }
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sorted.size(), 1024), [&](const auto& range) {
-        for (std::size_t begin = range.begin(); begin < range.end(); ++begin) {
-            if (sameRun(begin)) continue;
-            std::size_t end = begin + 1;
-            while (end < sorted.size() && sameRun(end)) ++end;
-            groupRun(scene, std::span(sorted).subspan(begin, end - begin), leader_of);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets.first.size() - 1, 8),
+                      [&](const auto& range) {
+                          std::vector<FoundPlane> planes;
+                          for (std::size_t b = range.begin(); b < range.end(); ++b)
+                              lead(buckets.of(b), planes);
+                      });
+    return out;
+}
+
+/// Numbers the planes by their first triangle.
+CoplanarGroups numbered(const Scene& scene, Leaders leaders) {
+    const std::size_t count = scene.triangle_count;
+    const auto leads = [&](std::size_t i) { return leaders.leader[i] == i; };
+    const std::vector<std::size_t> before = countedBefore(count, leads);
+    CoplanarGroups groups{std::vector<std::uint32_t>(count), std::move(leaders.reversed),
+                          std::vector<FilePlane>(before.back())};
+    forRuns(count, [&](std::size_t run, std::size_t begin, std::size_t end) {
+        auto plane = static_cast<std::uint32_t>(before[run]);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!leads(i)) continue;
+            const TriangleRef widest = findTriangle(scene, leaders.widest[i]);
+            groups.planes[plane] = {widest.geometry, widest.triangle};
+            groups.plane_of[i] = plane++;
         }
     });
-    return leader_of;
-}
-
-/// Numbers the planes by their first triangle and picks each one's widest triangle.
-void choosePlanes(const Scene& scene, const std::vector<std::uint32_t>& leader_of, CoplanarGroups& groups) {
-    std::vector<double> widest;
-    for (std::uint32_t g = 0; g < scene.geometry.size(); ++g) {
-        const Geometry& geometry = scene.geometry[g];
-        for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-            const std::uint32_t index = geometry.first_triangle + t, leader = leader_of[index];
-            if (leader == kNone) continue;
-            if (leader == index) {
-                groups.plane_of[index] = static_cast<std::uint32_t>(groups.planes.size());
-                groups.planes.emplace_back();
-                widest.push_back(-1.0);
-            }
-            const std::uint32_t plane = groups.plane_of[index] = groups.plane_of[leader];
-            const double size = roughSize(fileCorners(geometry, t));
-            if (size <= widest[plane]) continue;
-            widest[plane] = size;
-            groups.planes[plane].geometry = g;
-            groups.planes[plane].triangle = t;
-        }
-    }
-}
-
-void formNormals(const Scene& scene, CoplanarGroups& groups, std::vector<int>& axis) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, groups.planes.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            FilePlane& plane = groups.planes[i];
-            const ExactPlane exact(fileCorners(scene.geometry[plane.geometry], plane.triangle));
-            for (int k = 0; k < 3; ++k) plane.normal[k] = exact.normal[k].toDoubleDouble();
-            axis[i] = exact.widestAxis();
-        }
+    forRuns(count, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (const std::uint32_t leader = leaders.leader[i]; leader != i)
+                groups.plane_of[i] = leader == kNone ? kNone : groups.plane_of[leader];
     });
-}
-
-void findReversed(const Scene& scene, const std::vector<int>& axis, CoplanarGroups& groups) {
-    for (const Geometry& geometry : scene.geometry) {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, geometry.triangles.size(), 1024), [&](const auto& range) {
-                for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                    const std::size_t index = geometry.first_triangle + t;
-                    const std::uint32_t plane = groups.plane_of[index];
-                    if (plane == kNone) continue;
-                    const int sign =
-                        normalSign(fileCorners(geometry, static_cast<std::uint32_t>(t)), axis[plane]);
-                    groups.reversed[index] =
-                        (sign > 0) != (groups.planes[plane].normal[axis[plane]].hi > 0.0);
-                }
-            });
-    }
+    return groups;
 }
 
 }  // namespace
 
+std::array<f64::dd, 3> fileNormal(const Geometry& geometry, std::uint32_t triangle) {
+    const Corners p = fileCorners(geometry, triangle);
+    return {normalComponent(p, 0).toDoubleDouble(), normalComponent(p, 1).toDoubleDouble(),
+            normalComponent(p, 2).toDoubleDouble()};
+}
+
 CoplanarGroups findCoplanar(const Scene& scene) {
-    CoplanarGroups groups;
-    groups.plane_of.assign(scene.triangle_count, kNone);
-    groups.reversed.assign(scene.triangle_count, 0);
-    choosePlanes(scene, findLeaders(scene, groupedCandidates(scene)), groups);
-    std::vector<int> axis(groups.planes.size());
-    formNormals(scene, groups, axis);
-    findReversed(scene, axis, groups);
-    return groups;
+    return numbered(scene, findLeaders(scene, dealt(planeHashes(scene))));
 }
 
 }  // namespace edgewise

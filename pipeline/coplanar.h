@@ -13,16 +13,17 @@ namespace edgewise {
 
 /// The plane through a triangle of the file, as it was written there.
 struct FilePlane {
-    std::array<f64::dd, 3>
-        normal;                  ///< cross(b - a, c - a), relative error <= 2^-104 a component, slivers too
     std::uint32_t geometry = 0;  ///< of the representative: the widest triangle, the first of equals
     std::uint32_t triangle = 0;
 };
 
+/// cross(b - a, c - a) of a triangle, relative error <= 2^-104 a component, slivers too.
+std::array<f64::dd, 3> fileNormal(const Geometry& geometry, std::uint32_t triangle);
+
 struct CoplanarGroups {
     /// By the contract's triangle index: the plane, or kNone for a triangle without area in the file.
     std::vector<std::uint32_t> plane_of;
-    /// 1 where the triangle is wound against its plane's normal.
+    /// 1 where the triangle is wound against its plane's representative.
     std::vector<std::uint8_t> reversed;
     std::vector<FilePlane> planes;  ///< in order of their first triangle
 };

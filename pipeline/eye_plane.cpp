@@ -5,8 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
 
 namespace edgewise {
+
+#define EDGEWISE_DECLARE_PLANES(isa)                                             \
+    namespace isa {                                                              \
+    void eyePlanes(const WorldMap*, const EyeMap&, const PlanesIn&, PlanesOut&); \
+    }
+EDGEWISE_DECLARE_PLANES(scalar)
+EDGEWISE_DECLARE_PLANES(sse2)
+#if defined(EDGEWISE_HAS_AVX)
+EDGEWISE_DECLARE_PLANES(avx2)
+EDGEWISE_DECLARE_PLANES(avx512)
+#endif
+
 namespace {
 
 using f64::dd;
@@ -26,12 +42,8 @@ DdVector cross(const DdVector& a, const DdVector& b) {
     return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-DdVector difference(const DdVector& a, const DdVector& b) {
-    return {f64::ddSub(a[0], b[0]), f64::ddSub(a[1], b[1]), f64::ddSub(a[2], b[2])};
-}
-
-DdVector multiply(const DdMatrix& m, const DdVector& v) {
-    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+DdVector difference(const glm::dvec3& a, const glm::dvec3& b) {
+    return {f64::twoSum(a.x, -b.x), f64::twoSum(a.y, -b.y), f64::twoSum(a.z, -b.z)};
 }
 
 DdMatrix linearPart(const glm::dmat4& m) {
@@ -40,60 +52,42 @@ DdMatrix linearPart(const glm::dmat4& m) {
     return rows;
 }
 
-/// cof(M) (a x b) = (M a) x (M b), also where M is singular or mirrors.
 DdMatrix cofactor(const DdMatrix& m) {
     return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
 }
 
-DdVector transform(const glm::dmat4& m, const DdVector& p) {
-    DdVector moved = multiply(linearPart(m), p);
-    for (int row = 0; row < 3; ++row) moved[row] = f64::ddAdd(moved[row], f64::ddFrom(m[3][row]));
-    return moved;
+LaneMatrix lanes(const DdMatrix& m) {
+    LaneMatrix out;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) out.hi[i][j] = m[i][j].hi, out.lo[i][j] = m[i][j].lo;
+    return out;
 }
 
-/// Of each geometry that has an affine map from the file.
-std::vector<DdMatrix> fileCofactors(const Scene& scene) {
-    std::vector<DdMatrix> all(scene.geometry.size());
-    for (std::size_t g = 0; g < all.size(); ++g)
-        if (const auto& map = scene.geometry[g].world_from_file) all[g] = cofactor(linearPart(*map));
-    return all;
+EyeMap eyeMap(const glm::dmat4& camera_from_world, const ScreenMap& map) {
+    const DdMatrix linear = linearPart(camera_from_world), cofactors = cofactor(linear);
+    const dd determinant = dot(linear[0], cofactors[0]);
+    const glm::dvec3 c(camera_from_world[3]);
+    const glm::dvec2 from_principal = ((map.anchorPx() - map.offset_px) - map.whole_px) - map.fraction_px;
+    return {lanes(cofactors),
+            determinant.hi,
+            determinant.lo,
+            {c.x, c.y, c.z},
+            map.perspective,
+            map.scale_px,
+            {from_principal.x, from_principal.y}};
 }
 
-/// The plane in the world: through the node's affine map from the file, or through the world's own vertices.
-EyePlane worldPlane(const Geometry& geometry, const DdMatrix& cofactors, const FilePlane& plane) {
-    const auto& corner = geometry.triangles[plane.triangle];
-    EyePlane world;
-    DdVector point;
-    if (geometry.world_from_file) {
-        world.n = multiply(cofactors, plane.normal);
-        point = transform(*geometry.world_from_file, widen(glm::dvec3(geometry.position_file[corner[0]])));
-    } else {
-        point = widen(geometry.position_world[corner[0]]);
-        world.n = cross(difference(widen(geometry.position_world[corner[1]]), point),
-                        difference(widen(geometry.position_world[corner[2]]), point));
+/// None for the identity too: the file's planes are the world's.
+std::optional<WorldMap> worldMap(const Geometry& geometry) {
+    const auto& m = geometry.world_from_file;
+    if (!m || *m == glm::dmat4(1.0)) return std::nullopt;
+    WorldMap map{lanes(cofactor(linearPart(*m))), {}, {}};
+    for (int row = 0; row < 3; ++row) {
+        for (int k = 0; k < 3; ++k) map.linear[row][k] = (*m)[k][row];
+        map.translation[row] = (*m)[3][row];
     }
-    world.d = dot(world.n, point);
-    return world;
+    return map;
 }
-
-/// n' = cof(C) n, and for a point q of the plane d' = n' . (C q + c) = det(C) d + n' . c.
-struct CameraPlaneMap {
-    DdMatrix cofactors;
-    dd determinant;
-    DdVector translation;
-
-    explicit CameraPlaneMap(const glm::dmat4& camera_from_world)
-        : cofactors(cofactor(linearPart(camera_from_world))),
-          determinant(dot(linearPart(camera_from_world)[0], cofactors[0])),
-          translation(widen(glm::dvec3(camera_from_world[3]))) {}
-
-    EyePlane apply(const EyePlane& world) const {
-        EyePlane eye;
-        eye.n = multiply(cofactors, world.n);
-        eye.d = f64::ddAdd(f64::ddMul(determinant, world.d), dot(eye.n, translation));
-        return eye;
-    }
-};
 
 bool usable(const DepthPlane& plane) {
     constexpr double kLargest = 0x1p900;  // error-free products need room below overflow
@@ -101,49 +95,100 @@ bool usable(const DepthPlane& plane) {
            std::fabs(plane.z_anchor) < kLargest;
 }
 
-/// (a x + b y + c) scale, all double-double.
-dd affine(const dd& a, double x, const dd& b, double y, const dd& c, double scale) {
-    return f64::ddAdd(f64::ddAdd(f64::ddMulReal(a, x), f64::ddMulReal(b, y)), f64::ddMulReal(c, scale));
+glm::dvec3 unitNormal(glm::dvec3 normal, double facing) {
+    const double size = std::max({std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)});
+    if (size == 0.0) return {0.0, 0.0, 1.0};
+    normal /= size;
+    return normal * ((facing < 0.0 ? -1.0 : 1.0) / std::sqrt(glm::dot(normal, normal)));
+}
+
+EyePlanesFunction chooseEyePlanes() {
+    if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
+        if (EyePlanesFunction function = eyePlanesFor(forced)) return function;
+        throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
+    }
+    for (const char* name : {"avx512", "avx2", "sse2"})
+        if (EyePlanesFunction function = eyePlanesFor(name)) return function;
+    return scalar::eyePlanes;
 }
 
 }  // namespace
 
-glm::dvec3 EyePlane::unitNormal(bool perspective) const {
-    glm::dvec3 normal(n[0].hi, n[1].hi, n[2].hi);
-    const double size = std::max({std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)});
-    if (size == 0.0) return {0.0, 0.0, 1.0};
-    normal /= size;
-    return normal * ((facing(perspective) < 0.0 ? -1.0 : 1.0) / std::sqrt(glm::dot(normal, normal)));
+EyePlanesFunction eyePlanesFor(const char* instruction_set) {
+    const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
+    if (is("scalar")) return scalar::eyePlanes;
+    if (is("sse2")) return sse2::eyePlanes;
+#if defined(EDGEWISE_HAS_AVX)
+    if (is("avx2") && __builtin_cpu_supports("avx2")) return avx2::eyePlanes;
+    if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        return avx512::eyePlanes;
+#endif
+    return nullptr;
 }
 
-std::vector<EyePlane> makeEyePlanes(const Scene& scene, const CoplanarGroups& groups,
-                                    const glm::dmat4& camera_from_world) {
-    const CameraPlaneMap to_eye(camera_from_world);
-    const std::vector<DdMatrix> cofactors = fileCofactors(scene);
-    std::vector<EyePlane> planes(groups.planes.size());
+EyePlanes::EyePlanes(const Scene& scene, const glm::dmat4& camera_from_world, const ScreenMap& map)
+    : scene_(scene), eye_(eyeMap(camera_from_world, map)), planes_(chooseEyePlanes()) {
+    for (const Geometry& geometry : scene.geometry) world_.push_back(worldMap(geometry));
+}
+
+/// From the file where an affine map leads from there, else through the world's own vertices.
+void EyePlanes::load(const FilePlane& plane, int lane, PlanesIn& in) const {
+    const Geometry& geometry = scene_.geometry[plane.geometry];
+    const auto& corner = geometry.triangles[plane.triangle];
+    const bool from_file = geometry.world_from_file.has_value();
+    const auto& world = geometry.position_world;
+    const glm::dvec3 a = from_file ? glm::dvec3(geometry.position_file[corner[0]]) : world[corner[0]];
+    const DdVector normal = from_file
+                                ? fileNormal(geometry, plane.triangle)
+                                : cross(difference(world[corner[1]], a), difference(world[corner[2]], a));
+    for (int axis = 0; axis < 3; ++axis) {
+        in.normal_hi[axis][lane] = normal[axis].hi, in.normal_lo[axis][lane] = normal[axis].lo;
+        in.point[axis][lane] = a[axis];
+    }
+}
+
+EyePlane EyePlanes::finished(const PlanesOut& out, int lane) const {
+    const glm::dvec3 n(out.normal[0][lane], out.normal[1][lane], out.normal[2][lane]);
+    EyePlane plane;
+    plane.facing = eye_.perspective ? -out.d[lane] : n.z;
+    plane.normal = unitNormal(n, plane.facing);
+    const DepthPlane depth{out.dz_dx[lane], out.dz_dy[lane], out.z_anchor[lane]};
+    if (plane.facing != 0.0 && usable(depth)) plane.depth = depth;
+    return plane;
+}
+
+/// Up to kPlaneLanes planes of one geometry.
+void EyePlanes::make(std::span<const FilePlane> planes, PlanesOut& out) const {
+    PlanesIn in{};
+    for (std::size_t i = 0; i < planes.size(); ++i) load(planes[i], static_cast<int>(i), in);
+    const auto& world = world_[planes[0].geometry];
+    planes_(world ? &*world : nullptr, eye_, in, out);
+}
+
+EyePlane EyePlanes::of(const FilePlane& plane) const {
+    PlanesOut out;
+    make(std::span(&plane, 1), out);
+    return finished(out, 0);
+}
+
+void EyePlanes::fill(std::span<const FilePlane> planes, std::vector<DepthPlane>& depths,
+                     std::vector<glm::dvec3>& normals) const {
+    depths.resize(planes.size()), normals.resize(planes.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const FilePlane& file = groups.planes[i];
-            planes[i] =
-                to_eye.apply(worldPlane(scene.geometry[file.geometry], cofactors[file.geometry], file));
+        PlanesOut out;
+        for (std::size_t begin = range.begin(), end; begin < range.end(); begin = end) {
+            end = begin + 1;
+            while (end < range.end() && end - begin < kPlaneLanes &&
+                   planes[end].geometry == planes[begin].geometry)
+                ++end;
+            make(planes.subspan(begin, end - begin), out);
+            for (std::size_t i = begin; i < end; ++i) {
+                const EyePlane plane = finished(out, static_cast<int>(i - begin));
+                depths[i] = plane.depth.value(), normals[i] = plane.normal;
+            }
         }
     });
-    return planes;
-}
-
-std::optional<DepthPlane> depthPlane(const EyePlane& plane, const ScreenMap& map) {
-    const auto& [nx, ny, nz] = plane.n;
-    const dd ny_down = f64::ddNeg(ny);  // the screen's y points down
-    const glm::dvec2 from_principal = ((map.anchorPx() - map.offset_px) - map.whole_px) - map.fraction_px;
-    const dd divisor = map.perspective ? plane.d : f64::ddNeg(nz);
-    if (divisor.hi == 0.0) return std::nullopt;
-    const dd per_px = f64::ddMulReal(divisor, map.scale_px);
-    const dd constant = f64::ddNeg(map.perspective ? nz : plane.d);
-    const dd at_anchor = affine(nx, from_principal.x, ny_down, from_principal.y, constant, map.scale_px);
-    const DepthPlane depth{f64::ddDiv(nx, per_px).hi, f64::ddDiv(ny_down, per_px).hi,
-                           f64::ddDiv(at_anchor, per_px).hi};
-    if (!usable(depth)) return std::nullopt;
-    return depth;
 }
 
 }  // namespace edgewise

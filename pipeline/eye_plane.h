@@ -4,34 +4,47 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analytic/screen_triangle.h"
 #include "pipeline/coplanar.h"
+#include "pipeline/eye_plane_lanes.h"
 #include "pipeline/screen_map.h"
 
 namespace edgewise {
 
-/// n . p = d; n is cross(b - a, c - a) of the representative, d > 0 where its back is seen (perspective).
+/// n . p = d, n being cross(b - a, c - a) of the representative, as it is seen.
 struct EyePlane {
-    std::array<f64::dd, 3> n;
-    f64::dd d;
-
-    /// Positive where the eye sees the front, 0 edge-on: the sign of a product that was formed in
-    /// double-double.
-    double facing(bool perspective) const { return perspective ? -d.hi : n[2].hi; }
-
-    /// Unit, towards the viewer.
-    glm::dvec3 unitNormal(bool perspective) const;
+    double facing = 0.0;              ///< positive where the eye sees the front, 0 edge-on: the exact sign
+    glm::dvec3 normal{0, 0, 1};       ///< unit, towards the viewer
+    std::optional<DepthPlane> depth;  ///< relative to the map's anchor; none: seen edge-on
 };
 
-/// One for each plane of the groups.
-std::vector<EyePlane> makeEyePlanes(const Scene& scene, const CoplanarGroups& groups,
-                                    const glm::dmat4& camera_from_world);
+/// The code of one instruction set ("scalar", "sse2", "avx2", "avx512"); null where this machine lacks it.
+/// All give the same bits.
+EyePlanesFunction eyePlanesFor(const char* instruction_set);
 
-/// Depth relative to the map's anchor: 1/w = n.(u, v, -1)/d for perspective, with no vertex projected, so
-/// triangles partly behind the eye are no special case; z_eye for orthographic. None: the plane is seen
-/// edge-on.
-std::optional<DepthPlane> depthPlane(const EyePlane& plane, const ScreenMap& map);
+class EyePlanes {
+  public:
+    /// Throws std::invalid_argument for an instruction set in EDGEWISE_ISA that is not there.
+    EyePlanes(const Scene& scene, const glm::dmat4& camera_from_world, const ScreenMap& map);
+
+    EyePlane of(const FilePlane& plane) const;
+
+    /// Depths and normals of planes of which none is seen edge-on. On all threads.
+    void fill(std::span<const FilePlane> planes, std::vector<DepthPlane>& depths,
+              std::vector<glm::dvec3>& normals) const;
+
+  private:
+    void load(const FilePlane& plane, int lane, PlanesIn& in) const;
+    EyePlane finished(const PlanesOut& out, int lane) const;
+    void make(std::span<const FilePlane> planes, PlanesOut& out) const;
+
+    const Scene& scene_;
+    EyeMap eye_;
+    std::vector<std::optional<WorldMap>> world_;  ///< by geometry; none: planes are given in the world
+    EyePlanesFunction planes_;
+};
 
 }  // namespace edgewise

@@ -1,71 +1,97 @@
 #include "pipeline/project.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <atomic>
 
 #include "pipeline/clip.h"
 #include "pipeline/error.h"
 #include "pipeline/eye_plane.h"
+#include "pipeline/facing.h"
 #include "pipeline/grid_orientation.h"
+#include "pipeline/huge_pages.h"
 #include "pipeline/opacity.h"
+#include "pipeline/runs.h"
 #include "pipeline/weld.h"
 
 namespace edgewise {
 namespace {
 
-template <class Body>
-void parallelFor(std::size_t count, const Body& body) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 2048), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-    });
-}
-
 /// The scene's distinct vertices, in eye space and on the screen.
-struct EyeVertices {
-    PointTable table;
-    std::vector<std::size_t> first;  ///< by geometry, into ids
-    std::vector<std::uint32_t> ids;
-    std::vector<const glm::dvec3*> p_world;  ///< by id; of the first that is there
-    std::vector<std::uint8_t> outcode;       ///< by id
-    std::vector<glm::dvec2> p_px;            ///< by id; where the outcode is 0
-};
-
-EyeVertices weldVertices(const Scene& scene, const glm::dmat4& camera_from_world) {
-    std::vector<std::size_t> first{0};
-    for (const Geometry& g : scene.geometry) first.push_back(first.back() + g.position_world.size());
-    std::vector<glm::dvec3> p_eye(first.back());
-    for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
-        const auto& p_world = scene.geometry[g].position_world;
-        parallelFor(p_world.size(), [&](std::size_t i) {
-            p_eye[first[g] + i] = glm::dvec3(camera_from_world * glm::dvec4(p_world[i], 1.0));
+class EyeVertices {
+  public:
+    EyeVertices(const Scene& scene, const glm::dmat4& camera_from_world, const ClipVolume& volume,
+                const ScreenMap& map)
+        : scene_(scene), first_(firstOfGeometries(scene)), table_(eyePoints(camera_from_world)) {
+        outcode_.resize(table_.points().size()), p_px_.resize(table_.points().size());
+        eachVertex([&](std::size_t place, const glm::dvec3& p_world) {
+            const std::uint32_t id = table_.ids()[place];
+            if (table_.firstPlaces()[id] != place) return;
+            glm::dvec3 p = table_.points()[id];
+            outcode_[id] = volume.outcode(camera_from_world, p_world, p);
+            if (outcode_[id] == 0) p_px_[id] = map.toScreen(p);
         });
     }
-    EyeVertices vertices{PointTable(p_eye.size()), std::move(first), {}, {}, {}, {}};
-    vertices.ids.reserve(p_eye.size());
-    std::size_t next = 0;
-    for (const Geometry& g : scene.geometry)
-        for (const glm::dvec3& p_world : g.position_world) {
-            vertices.ids.push_back(vertices.table.id(p_eye[next++]));
-            if (vertices.ids.back() == vertices.p_world.size()) vertices.p_world.push_back(&p_world);
-        }
-    return vertices;
-}
 
-void placeVertices(const ClipVolume& volume, const ScreenMap& map, const glm::dmat4& camera_from_world,
-                   EyeVertices& vertices) {
-    const auto& p_eye = vertices.table.points();
-    vertices.outcode.resize(p_eye.size());
-    vertices.p_px.resize(p_eye.size());
-    parallelFor(p_eye.size(), [&](std::size_t i) {
-        glm::dvec3 p = p_eye[i];
-        vertices.outcode[i] = volume.outcode(camera_from_world, *vertices.p_world[i], p);
-        if (vertices.outcode[i] == 0) vertices.p_px[i] = map.toScreen(p);
-    });
-}
+    std::uint32_t id(std::uint32_t geometry, std::uint32_t vertex) const {
+        return table_.ids()[first_[geometry] + vertex];
+    }
+    const glm::dvec3& eye(std::uint32_t id) const { return table_.points()[id]; }
+    std::uint8_t outcode(std::uint32_t id) const { return outcode_[id]; }
+    /// Where the outcode is 0.
+    const glm::dvec2& px(std::uint32_t id) const { return p_px_[id]; }
+    /// Of the first vertex that is there.
+    const glm::dvec3& world(std::uint32_t id) const {
+        const std::size_t place = table_.firstPlaces()[id];
+        const auto after = std::upper_bound(first_.begin(), first_.end(), place);
+        const auto geometry = static_cast<std::size_t>(after - first_.begin() - 1);
+        return scene_.geometry[geometry].position_world[place - first_[geometry]];
+    }
+    /// Of a corner that clipping made.
+    std::uint32_t idOfMade(const glm::dvec3& p_eye) { return table_.id(p_eye); }
+
+  private:
+    static std::vector<std::size_t> firstOfGeometries(const Scene& scene) {
+        std::vector<std::size_t> counts;
+        for (const Geometry& g : scene.geometry) counts.push_back(g.position_world.size());
+        return offsetsFromCounts(counts);
+    }
+
+    /// Calls visit(place, p_world): places count through the geometries.
+    template <class Visit>
+    void eachVertex(const Visit& visit) const {
+        for (std::size_t g = 0; g < scene_.geometry.size(); ++g) {
+            const auto& p_world = scene_.geometry[g].position_world;
+            forRuns(p_world.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) visit(first_[g] + i, p_world[i]);
+            });
+        }
+    }
+
+    ZeroedVector<glm::dvec3> eyePoints(const glm::dmat4& camera_from_world) const {
+        ZeroedVector<glm::dvec3> p_eye(first_.back());
+        eachVertex([&](std::size_t place, const glm::dvec3& p_world) {
+            p_eye[place] = glm::dvec3(camera_from_world * glm::dvec4(p_world, 1.0));
+        });
+        return p_eye;
+    }
+
+    const Scene& scene_;
+    std::vector<std::size_t> first_;  ///< by geometry: the place of its first vertex
+    PointTable table_;
+    ZeroedVector<std::uint8_t> outcode_;  ///< by id
+    ZeroedVector<glm::dvec2> p_px_;       ///< by id
+};
+
+/// What becomes of a triangle.
+enum class Fate : std::uint8_t {
+    kGone,
+    kWhole,
+    kTurned,
+    kClipped
+};  // turned: its last two corners change places
 
 /// What a run of triangles contributes; runs are joined in order.
 struct Run {
-    std::vector<ScreenTriangle> pieces;
+    std::vector<ScreenTriangle> clipped;
     /// Corners that clipping made, in eye space; a piece refers to number i as kFirstMade + i until the runs
     /// are joined.
     std::vector<glm::dvec3> made;
@@ -83,36 +109,33 @@ class Projector {
           map_(makeScreenMap(camera, film)),
           volume_(camera.camera, map_),
           groups_(passed(findCoplanar(scene))),
-          planes_(passed(makeEyePlanes(scene, groups_, camera.camera_from_world))),
-          vertices_(passed(weldVertices(scene, camera.camera_from_world))),
-          opacity_(opacityOf(scene)) {
-        placeVertices(volume_, map_, camera_from_world_, vertices_);
-    }
+          vertices_(passed(EyeVertices(scene, camera_from_world_, volume_, map_))),
+          planes_(scene, camera_from_world_, map_),
+          facing_(scene, camera_from_world_, map_),
+          opacity_(opacityOf(scene)) {}
 
     ScreenScene run(ScreenPieces& pieces) {
         ScreenScene screen;
-        makeDepth(screen, pieces);
-        pieces.back_facing.assign(scene_.triangle_count, 0);
-        std::vector<Run> runs(runCount(scene_));
-        tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
-            projectRun(i, runs[i], pieces);
-            advance(1);
+        screen.anchor_px = map_.anchorPx();
+        pieces.back_facing.resize(scene_.triangle_count);
+        fate_.resize(scene_.triangle_count);
+        seen_.resize(groups_.planes.size());
+        std::vector<Run> runs(runCount(scene_.triangle_count));
+        forTriangles([&](std::size_t run, TriangleRef at, Owner owner) {
+            const Fate fate = fate_[owner] = projectTriangle(at, owner, runs[run], pieces.back_facing[owner]);
+            if (fate != Fate::kGone) markSeen(groups_.plane_of[owner]);
         });
+        numberPlanes(screen, pieces);
         join(runs, screen, pieces);
         markSeeThrough(screen);
         return screen;
     }
 
   private:
-    static constexpr std::size_t kRunLength = 4096;
-    static constexpr std::size_t kParts = 4;  // of about the same length: planes twice, vertices, triangles
-
-    static std::size_t runCount(const Scene& scene) {
-        return (scene.triangle_count + kRunLength - 1) / kRunLength;
-    }
+    static constexpr std::size_t kParts = 4;  // of about the same length: groups, vertices, triangles twice
 
     static Progress& begun(Progress& progress, const Scene& scene) {
-        progress.stage("project", kParts * runCount(scene));
+        progress.stage("project", kParts * runCount(scene.triangle_count));
         return progress;
     }
 
@@ -123,21 +146,38 @@ class Projector {
 
     template <class Part>
     Part passed(Part part) const {
-        advance(runCount(scene_));
+        advance(runCount(scene_.triangle_count));
         return part;
     }
 
-    void makeDepth(ScreenScene& screen, ScreenPieces& pieces) {
-        screen.anchor_px = map_.anchorPx();
-        screen.planes.resize(planes_.size());
-        edge_on_.assign(planes_.size(), 0);
-        pieces.plane_normal_eye.resize(planes_.size());
-        parallelFor(planes_.size(), [&](std::size_t i) {
-            const auto depth = depthPlane(planes_[i], map_);
-            if (depth) screen.planes[i] = *depth;
-            edge_on_[i] = !depth;
-            pieces.plane_normal_eye[i] = planes_[i].unitNormal(map_.perspective);
+    /// Calls visit(run, triangle, owner).
+    template <class Visit>
+    void forTriangles(const Visit& visit) const {
+        forRuns(scene_.triangle_count, [&](std::size_t run, std::size_t begin, std::size_t end) {
+            TriangleRef at = findTriangle(scene_, static_cast<std::uint32_t>(begin));
+            for (std::size_t owner = begin; owner < end; ++owner, ++at.triangle) {
+                while (at.triangle == scene_.geometry[at.geometry].triangles.size())
+                    at = {at.geometry + 1, 0};
+                visit(run, at, static_cast<Owner>(owner));
+            }
+            advance(1);
         });
+    }
+
+    void markSeen(std::uint32_t plane) { std::atomic_ref(seen_[plane]).store(1, std::memory_order_relaxed); }
+
+    /// The planes of what is seen, in their order in the file.
+    void numberPlanes(ScreenScene& screen, ScreenPieces& pieces) {
+        const std::vector<std::size_t> before =
+            countedBefore(seen_.size(), [&](std::size_t i) { return seen_[i] != 0; });
+        number_.resize(seen_.size());
+        ZeroedVector<FilePlane> seen(before.back());
+        forRuns(seen_.size(), [&](std::size_t run, std::size_t begin, std::size_t end) {
+            auto number = static_cast<std::uint32_t>(before[run]);
+            for (std::size_t i = begin; i < end; ++i)
+                if (seen_[i]) seen[number] = groups_.planes[i], number_[i] = number++;
+        });
+        planes_.fill(seen, screen.planes, pieces.plane_normal_eye);
     }
 
     void markSeeThrough(ScreenScene& screen) const {
@@ -147,58 +187,71 @@ class Projector {
         std::ranges::transform(opacity_, screen.see_through.begin(), through);
     }
 
-    void projectRun(std::size_t number, Run& run, ScreenPieces& pieces) const {
-        const std::size_t end = std::min((number + 1) * kRunLength, scene_.triangle_count);
-        TriangleRef at = findTriangle(scene_, static_cast<std::uint32_t>(number * kRunLength));
-        for (std::size_t owner = number * kRunLength; owner < end; ++owner, ++at.triangle) {
-            while (at.triangle == scene_.geometry[at.geometry].triangles.size()) at = {at.geometry + 1, 0};
-            projectTriangle(at, static_cast<Owner>(owner), run, pieces.back_facing[owner]);
-        }
+    std::array<std::uint32_t, 3> corners(TriangleRef at) const {
+        const auto& corner = scene_.geometry[at.geometry].triangles[at.triangle];
+        return {vertices_.id(at.geometry, corner[0]), vertices_.id(at.geometry, corner[1]),
+                vertices_.id(at.geometry, corner[2])};
     }
 
-    void projectTriangle(TriangleRef at, Owner owner, Run& run, std::uint8_t& back_facing) const {
-        const Geometry& geometry = scene_.geometry[at.geometry];
+    Fate projectTriangle(TriangleRef at, Owner owner, Run& run, std::uint8_t& back_facing) const {
         const std::uint32_t plane = groups_.plane_of[owner];
         ++run.counts.triangles;
-        if (!opacity_.empty() && opacity_[owner] == Opacity::kInvisible) return void(++run.counts.invisible);
-        if (plane == kNone || edge_on_[plane]) return void(++run.counts.no_area);
-        back_facing = (planes_[plane].facing(map_.perspective) < 0.0) != (groups_.reversed[owner] != 0);
-        if (back_facing && !scene_.materials[geometry.material].double_sided)
-            return void(++run.counts.culled);
-        std::array<std::uint32_t, 3> id;
-        for (int k = 0; k < 3; ++k)
-            id[k] = vertices_.ids[vertices_.first[at.geometry] + geometry.triangles[at.triangle][k]];
-        emitTriangle(id, owner, plane, run);
+        if (!opacity_.empty() && opacity_[owner] == Opacity::kInvisible) return gone(run.counts.invisible);
+        if (plane == kNone) return gone(run.counts.no_area);
+        const auto id = corners(at);
+        const int side = sideSeen(at.geometry, id, owner);
+        if (side == 0) return gone(run.counts.no_area);
+        back_facing = side < 0;
+        if (back_facing && !scene_.materials[scene_.geometry[at.geometry].material].double_sided)
+            return gone(run.counts.culled);
+        return emitTriangle(id, owner, run);
     }
 
-    void emitTriangle(const std::array<std::uint32_t, 3>& id, Owner owner, std::uint32_t plane,
-                      Run& run) const {
-        const auto& code = vertices_.outcode;
-        const auto& px = vertices_.p_px;
-        const std::uint8_t all = code[id[0]] & code[id[1]] & code[id[2]];
-        const std::uint8_t any = code[id[0]] | code[id[1]] | code[id[2]];
-        if (all != 0) return void(++run.counts.outside);
-        const std::size_t before = run.pieces.size();
-        if (any == 0)
-            emitPiece({{px[id[0]], px[id[1]], px[id[2]]}, id, owner, plane}, run);
-        else if (!emitClipped(id, any, owner, plane, run))
-            return void(++run.counts.outside);
-        const bool visible = run.pieces.size() > before;
-        ++(visible ? run.counts.visible : run.counts.vanished);
-        if (visible && any != 0) ++run.counts.clipped;
+    static Fate gone(std::size_t& count) {
+        ++count;
+        return Fate::kGone;
+    }
+
+    /// 1: front, -1: back, 0: the plane is seen edge-on.
+    int sideSeen(std::uint32_t geometry, const std::array<std::uint32_t, 3>& id, Owner owner) const {
+        const int side =
+            facing_.side(geometry, vertices_.eye(id[0]), vertices_.eye(id[1]), vertices_.eye(id[2]));
+        if (side != 0) return side;
+        const EyePlane plane = planes_.of(groups_.planes[groups_.plane_of[owner]]);
+        if (!plane.depth) return 0;
+        return (plane.facing < 0.0) != (groups_.reversed[owner] != 0) ? -1 : 1;
+    }
+
+    Fate emitTriangle(const std::array<std::uint32_t, 3>& id, Owner owner, Run& run) const {
+        const std::array code{vertices_.outcode(id[0]), vertices_.outcode(id[1]), vertices_.outcode(id[2])};
+        const auto any = static_cast<std::uint8_t>(code[0] | code[1] | code[2]);
+        if ((code[0] & code[1] & code[2]) != 0) return gone(run.counts.outside);
+        if (any == 0) {
+            const int orientation =
+                gridOrientation(vertices_.px(id[0]), vertices_.px(id[1]), vertices_.px(id[2]));
+            if (orientation == 0) return gone(run.counts.vanished);
+            ++run.counts.visible, ++run.counts.pieces;
+            return orientation > 0 ? Fate::kWhole : Fate::kTurned;
+        }
+        const std::size_t before = run.clipped.size();
+        if (!emitClipped(id, any, owner, run)) return gone(run.counts.outside);
+        if (run.clipped.size() == before) return gone(run.counts.vanished);
+        ++run.counts.visible, ++run.counts.clipped;
+        run.counts.pieces += run.clipped.size() - before;
+        return Fate::kClipped;
     }
 
     /// False if nothing is left of the triangle.
     bool emitClipped(const std::array<std::uint32_t, 3>& id, std::uint8_t codes, Owner owner,
-                     std::uint32_t plane, Run& run) const {
+                     Run& run) const {
         ClipPolygon polygon;
-        for (const std::uint32_t i : id) polygon.push(refined(camera_from_world_, *vertices_.p_world[i]), i);
+        for (const std::uint32_t i : id) polygon.push(refined(camera_from_world_, vertices_.world(i)), i);
         volume_.clip(polygon, codes);
         if (polygon.size < 3) return false;
         std::array<glm::dvec2, ClipPolygon::kCapacity> px;
         for (int i = 0; i < polygon.size; ++i) {
             if (polygon.vertex[i] != kNone) {
-                px[i] = vertices_.p_px[polygon.vertex[i]];
+                px[i] = vertices_.px(polygon.vertex[i]);
                 continue;
             }
             px[i] = map_.toScreen(polygon.eye[i].p);
@@ -208,42 +261,59 @@ class Projector {
         for (int i = 2; i < polygon.size; ++i)
             emitPiece({{px[0], px[i - 1], px[i]},
                        {polygon.vertex[0], polygon.vertex[i - 1], polygon.vertex[i]},
-                       owner,
-                       plane},
-                      run);
+                       owner},
+                      run.clipped);
         return true;
     }
 
-    static void emitPiece(ScreenTriangle piece, Run& run) {
+    static void emitPiece(ScreenTriangle piece, std::vector<ScreenTriangle>& out) {
         const int orientation = gridOrientation(piece.p_px[0], piece.p_px[1], piece.p_px[2]);
-        if (orientation == 0) return;
-        if (orientation < 0) {
-            std::swap(piece.p_px[1], piece.p_px[2]);
-            std::swap(piece.vertex[1], piece.vertex[2]);
-        }
-        run.pieces.push_back(piece);
+        if (orientation != 0) out.push_back(orientation < 0 ? turned(piece) : piece);
+    }
+
+    static ScreenTriangle turned(ScreenTriangle piece) {
+        std::swap(piece.p_px[1], piece.p_px[2]);
+        std::swap(piece.vertex[1], piece.vertex[2]);
+        return piece;
+    }
+
+    ScreenTriangle whole(TriangleRef at, Owner owner) const {
+        const auto id = corners(at);
+        const ScreenTriangle piece{
+            {vertices_.px(id[0]), vertices_.px(id[1]), vertices_.px(id[2])}, id, owner, 0};
+        return fate_[owner] == Fate::kTurned ? turned(piece) : piece;
     }
 
     void join(std::vector<Run>& runs, ScreenScene& screen, ScreenPieces& pieces) {
-        std::size_t total = 0;
-        for (const Run& run : runs) total += run.pieces.size();
-        screen.triangles.reserve(total);
+        std::vector<std::size_t> counts, clipped_next(runs.size());
         for (Run& run : runs) {
             numberMadeVertices(run);
-            screen.triangles.insert(screen.triangles.end(), run.pieces.begin(), run.pieces.end());
+            counts.push_back(run.counts.pieces);
             addCounts(run.counts, pieces.counts);
         }
-        pieces.counts.pieces = total;
-        pieces.counts.planes = planes_.size();
-        pieces.first.assign(scene_.triangle_count + 1, 0);
-        for (const ScreenTriangle& piece : screen.triangles) ++pieces.first[piece.owner + 1];
-        for (std::size_t i = 0; i < scene_.triangle_count; ++i) pieces.first[i + 1] += pieces.first[i];
+        pieces.counts.planes = groups_.planes.size();
+        std::vector<std::size_t> next = offsetsFromCounts(counts);
+        screen.triangles.resize(next.back());
+        pieces.first.resize(scene_.triangle_count + 1);
+        pieces.first.back() = static_cast<std::uint32_t>(next.back());
+        forTriangles([&](std::size_t run, TriangleRef at, Owner owner) {
+            pieces.first[owner] = static_cast<std::uint32_t>(next[run]);
+            if (fate_[owner] == Fate::kGone) return;
+            const auto put = [&](ScreenTriangle piece) {
+                piece.plane = number_[groups_.plane_of[owner]];
+                screen.triangles[next[run]++] = piece;
+            };
+            if (fate_[owner] != Fate::kClipped) return put(whole(at, owner));
+            const std::vector<ScreenTriangle>& clipped = runs[run].clipped;
+            for (std::size_t& i = clipped_next[run]; i < clipped.size() && clipped[i].owner == owner; ++i)
+                put(clipped[i]);
+        });
     }
 
     void numberMadeVertices(Run& run) {
         std::vector<std::uint32_t> ids;
-        for (const glm::dvec3& p : run.made) ids.push_back(vertices_.table.id(p));
-        for (ScreenTriangle& piece : run.pieces)
+        for (const glm::dvec3& p : run.made) ids.push_back(vertices_.idOfMade(p));
+        for (ScreenTriangle& piece : run.clipped)
             for (std::uint32_t& id : piece.vertex)
                 if (id >= kFirstMade) id = ids[id - kFirstMade];
     }
@@ -257,6 +327,7 @@ class Projector {
         all.vanished += run.vanished;
         all.visible += run.visible;
         all.clipped += run.clipped;
+        all.pieces += run.pieces;
     }
 
     const Scene& scene_;
@@ -265,10 +336,13 @@ class Projector {
     ScreenMap map_;
     ClipVolume volume_;
     CoplanarGroups groups_;
-    std::vector<EyePlane> planes_;
     EyeVertices vertices_;
-    std::vector<std::uint8_t> edge_on_;
+    EyePlanes planes_;
+    Facing facing_;
     std::vector<Opacity> opacity_;
+    ZeroedVector<Fate> fate_;             ///< by owner
+    ZeroedVector<std::uint8_t> seen_;     ///< by plane of the file: something of it is seen
+    ZeroedVector<std::uint32_t> number_;  ///< by plane of the file, where it is seen: its place on the screen
 };
 
 }  // namespace

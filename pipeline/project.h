@@ -1,7 +1,6 @@
 // The scene on the screen: eye space, culling, clipping, rounding to the grid, depth planes.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -33,9 +32,9 @@ struct ProjectionCounts {
 struct ScreenPieces {
     /// The pieces of owner i are ScreenScene::triangles[first[i]] .. [first[i + 1]].
     std::vector<std::uint32_t> first;
-    std::vector<std::uint8_t> back_facing;  ///< by owner: the back is seen
-    std::vector<glm::dvec3>
-        plane_normal_eye;  ///< by plane: unit, towards the viewer; bit-equal for coplanar triangles
+    std::vector<std::uint8_t> back_facing;     ///< by owner: the back is seen
+    std::vector<glm::dvec3> plane_normal_eye;  ///< by plane of ScreenScene: unit, towards the viewer;
+                                               ///< bit-equal for coplanar triangles
     ProjectionCounts counts;
 
     std::span<const ScreenTriangle> of(Owner owner, const ScreenScene& scene) const {
@@ -49,14 +48,5 @@ ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film
                     Progress& progress);
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film, ScreenPieces& pieces);
 ScreenScene project(const Scene& scene, const ResolvedCamera& camera, const Film& film);
-
-/// The triangle behind a contract index below Scene::triangle_count.
-inline TriangleRef findTriangle(const Scene& scene, std::uint32_t index) {
-    const auto after =
-        std::upper_bound(scene.geometry.begin(), scene.geometry.end(), index,
-                         [](std::uint32_t i, const Geometry& g) { return i < g.first_triangle; });
-    const auto geometry = static_cast<std::uint32_t>(after - scene.geometry.begin() - 1);
-    return {geometry, index - scene.geometry[geometry].first_triangle};
-}
 
 }  // namespace edgewise

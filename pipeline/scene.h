@@ -1,6 +1,7 @@
 // A scene as plain data: what load_gltf makes and every later stage reads. World space, right-handed, +y up.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -135,5 +136,14 @@ struct TriangleRef {
     std::uint32_t geometry;
     std::uint32_t triangle;
 };
+
+/// The triangle behind a contract index below Scene::triangle_count.
+inline TriangleRef findTriangle(const Scene& scene, std::uint32_t index) {
+    const auto after =
+        std::upper_bound(scene.geometry.begin(), scene.geometry.end(), index,
+                         [](std::uint32_t i, const Geometry& g) { return i < g.first_triangle; });
+    const auto geometry = static_cast<std::uint32_t>(after - scene.geometry.begin() - 1);
+    return {geometry, index - scene.geometry[geometry].first_triangle};
+}
 
 }  // namespace edgewise
