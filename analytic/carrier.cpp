@@ -1,6 +1,7 @@
 #include "analytic/carrier.h"
 
 #include <bit>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -87,6 +88,15 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t v) {
     return h ^ (h >> 29);
 }
 
+/// The cell of 16 px that holds a point, row by row, in the upper 34 bits: edges that begin beside each other
+/// are sorted, and then read, beside each other.
+std::uint64_t nearby(glm::dvec2 p) {
+    const auto cell = [](double px) {
+        return static_cast<std::uint64_t>(static_cast<int>(std::floor(px * 0.0625)) + 0x10000) & 0x1ffff;
+    };
+    return cell(p.y) << 47 | cell(p.x) << 30;
+}
+
 }  // namespace
 
 Carrier edgeCarrier(const ScreenScene& scene, LineRef ref) {
@@ -152,7 +162,7 @@ std::uint64_t lineKey(const Carrier& line) {
     if (line.horizontal()) return h;
     h = mix(h, std::bit_cast<std::uint64_t>(line.a.x + 0.0));
     h = mix(h, std::bit_cast<std::uint64_t>(line.b.y + 0.0));
-    return mix(h, std::bit_cast<std::uint64_t>(line.b.x + 0.0));
+    return nearby(line.a) | mix(h, std::bit_cast<std::uint64_t>(line.b.x + 0.0)) >> 30;
 }
 
 std::uint64_t closingKey(FineCoordinate y) {
