@@ -204,23 +204,29 @@ EDGEWISE_FN void addCell(const TableView& table, int i, int j, PairSet met, Stri
     }
 }
 
+/// Cells (i, j0) to (i, j1) of stripSum(), for all pairs; no more than kMostIntervals.
+EDGEWISE_FN void sumColumn(const TableView& table, int i, int j0, int j1, int count, StripPairs& strips) {
+    PairSet met[kMostIntervals] = {};
+    for (int first = 0; first < count; first += EDGEWISE_LANES) {
+        const CutLine cut = cutLineFrom(
+            strips, [=](const work_number* numbers) __attribute__((always_inline)) { return workAt(numbers, first); });
+        const LinePart column = columnPart(table, cut, i);
+        if (!anyLane(column.from < column.to)) continue;
+        for (int j = j0; j < j1; ++j) {
+            const LinePart part = rowPart(table, cut, j, column);
+            met[j - j0] |= laneSetOf(part.from < part.to) << first;
+        }
+    }
+    for (int j = j0; j < j1; ++j)
+        if (met[j - j0] != 0) addCell(table, i, j, met[j - j0] & ~PairSet{0} >> (kMostPairs - count), strips);
+}
+
 /// stripSum() of all pairs, cell by cell in the same order.
 EDGEWISE_FN void sumCells(const TableView& table, int count, StripPairs& strips) {
-    for (int i = 0; i < table.intervals; ++i) {
-        PairSet met[kMostIntervals] = {};
-        for (int first = 0; first < count; first += EDGEWISE_LANES) {
-            const CutLine cut = cutLineFrom(
-                strips, [=](const work_number* numbers) __attribute__((always_inline)) { return workAt(numbers, first); });
-            const LinePart column = columnPart(table, cut, i);
-            if (!anyLane(column.from < column.to)) continue;
-            for (int j = 0; j < table.intervals; ++j) {
-                const LinePart part = rowPart(table, cut, j, column);
-                met[j] |= laneSetOf(part.from < part.to) << first;
-            }
-        }
-        for (int j = 0; j < table.intervals; ++j)
-            if (met[j] != 0) addCell(table, i, j, met[j] & ~PairSet{0} >> (kMostPairs - count), strips);
-    }
+    for (int i = 0; i < table.intervals; ++i)
+        for (int j = 0; j < table.intervals; j += kMostIntervals)
+            sumColumn(table, i, j, j + kMostIntervals < table.intervals ? j + kMostIntervals : table.intervals, count,
+                      strips);
 }
 
 EDGEWISE_FN void stripTermsOf(const LaneKernel& kernel, const EdgePair* pairs, int count, EdgeTerms& terms) {

@@ -295,6 +295,7 @@ TEST(EdgeIntegral, StripTermsMatchQuadrature) {
         check({name, {}, {}, 40, true}, no_relative, kAbsoluteU);
     check({"gaussian-separable", 4, 0.25, 20, true}, no_relative, kAbsoluteU);
     check({"lanczos", 1.37, {}, 20, true}, no_relative, kAbsoluteU);
+    check({"lanczos", 12, {}, 5, true}, no_relative, kAbsoluteU);  // more pieces than a step of rows holds
 }
 
 }  // namespace
