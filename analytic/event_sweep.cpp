@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 namespace edgewise {
 namespace {
@@ -42,7 +41,8 @@ bool EventSweep::sweep() {
     for (std::size_t i = 0;; ++ordinates) {
         const bool last = i == happenings_.size();
         const FineCoordinate y_next = last ? border(frame.cell.max.y) : yOf(*happenings_[i].at);
-        if (!seeChanged(0.5 * (y + frame.localY(y_next))) || !relabel()) return false;
+        if (!seeChanged(0.5 * (y + frame.localY(y_next)))) return false;
+        relabel();
         emitRows(last ? frame.bottom : happenings_[i].key);
         if (last) break;
         key = happenings_[i].key, y = frame.localY(y_next);
@@ -89,8 +89,7 @@ bool EventSweep::collect() {
 bool EventSweep::startAtTop() {
     const CellFrame& frame = leaf_->frame;
     pieces_.assign(leaf_->lines.size(), OpenPiece{});
-    touched_.assign(leaf_->lines.size(), nullptr);
-    order_.clear();
+    order_.clear(), touched_.clear();
     for (std::uint32_t i = 0; i < leaf_->lines.size(); ++i) {
         const LeafLine& line = leaf_->lines[i];
         if (!line.runsInside() || line.in0 != frame.top) continue;
@@ -103,7 +102,7 @@ bool EventSweep::startAtTop() {
             if (d >= -least) return false;
         }
         order_.insert(at(order_, place), i);
-        touched_[i] = &line.enter;
+        touched_.push_back({i, &line.enter});
     }
     faces_.assign(1, {leftmost(frame.top), kBackground, true});
     for (const std::uint32_t line : order_)
@@ -129,7 +128,6 @@ std::uint64_t EventSweep::leftmost(OrderKey key) const {
 bool EventSweep::happen(std::span<const Happening> together) {
     const Happening& first = together.front();
     if (first.q != kBegins && first.q != kEnds) return together.size() == 1 && cross(first);
-    for (const Happening& h : together) touched_[h.p] = h.at;
     if (const int side = sideOf(*first.at); side != 0) return together.size() == 1 && passSide(first, side);
     return meet(together);
 }
@@ -143,7 +141,7 @@ bool EventSweep::cross(const Happening& h) {
     if (!clearOfNeighbours(*h.at, i, i + 2)) return false;
     std::swap(order_[i], order_[i + 1]);
     faces_[i + 1] = {faces_[i].mask ^ leaf_->masks[order_[i]], kBackground, true};
-    touched_[h.p] = touched_[h.q] = h.at;
+    touched_.push_back({h.p, h.at}), touched_.push_back({h.q, h.at});
     return true;
 }
 
@@ -162,6 +160,7 @@ bool EventSweep::passSide(const Happening& h, int side) {
         const std::uint64_t mask = faces_[outermost].mask ^ leaf_->masks[h.p];
         const std::size_t face = side < 0 ? 0 : faces_.size();
         if (!clearOfNeighbours(*h.at, outermost, outermost)) return false;
+        touched_.push_back({h.p, h.at});
         order_.insert(at(order_, outermost), h.p);
         faces_.insert(at(faces_, face), {mask, kBackground, true});
         return true;
@@ -180,7 +179,7 @@ bool EventSweep::meet(std::span<const Happening> together) {
     std::size_t from = order_.size(), to = 0, ended = 0;
     for (const Happening& h : together) {
         if (h.q == kBegins) {
-            begun_.push_back(h.p);
+            begun_.push_back(h.p), touched_.push_back({h.p, h.at});
             continue;
         }
         const auto place = static_cast<std::size_t>(std::ranges::find(order_, h.p) - order_.begin());
@@ -242,9 +241,8 @@ bool EventSweep::replace(std::size_t from, std::size_t to) {
         faces_.insert(at(faces_, from + 1 + i), outer ? right : Face{mask, kBackground, true});
     }
     if (mask != right.mask) return false;
-    Face& left = faces_[from];
-    if (begun_.empty() && (left.changed || right.changed)) left.changed = true;
-    return !begun_.empty() || left.changed || left.owner == right.owner;
+    const Face& left = faces_[from];
+    return !begun_.empty() || (!left.changed && !right.changed && left.owner == right.owner);
 }
 
 /// The owners of new faces, at local ordinate y between two happenings.
@@ -279,17 +277,16 @@ bool EventSweep::see(Face& face, double x, double y) const {
 }
 
 /// Pieces end and begin where the owners beside a line change: only where something happened to it.
-bool EventSweep::relabel() {
-    for (std::size_t i = 0; i < order_.size(); ++i) {
+void EventSweep::relabel() {
+    for (const auto& [line, here] : touched_) {
+        const auto i = static_cast<std::size_t>(std::ranges::find(order_, line) - order_.begin());
         const Owner left = faces_[i].owner, right = faces_[i + 1].owner;
-        OpenPiece& piece = pieces_[order_[i]];
-        const FinePoint* here = std::exchange(touched_[order_[i]], nullptr);
+        OpenPiece& piece = pieces_[line];
         if (piece.open ? piece.left == left && piece.right == right : left == right) continue;
-        if (!here) return false;
-        piece.close(leaf_->lines[order_[i]], *here, out_->segments);
+        piece.close(leaf_->lines[line], *here, out_->segments);
         if (left != right) piece.begin(left, right, *here);
     }
-    return true;
+    touched_.clear();
 }
 
 /// The owners along the sample rows above an ordinate.

@@ -32,6 +32,11 @@ class EventSweep {
         Owner owner;
         bool changed;
     };
+    /// A line to which something has happened, and where.
+    struct Touched {
+        std::uint32_t line;
+        const FinePoint* at;
+    };
     static constexpr std::uint32_t kBegins = 0xfffffffeu, kEnds = 0xffffffffu;
 
     bool sweep();
@@ -49,7 +54,7 @@ class EventSweep {
     bool replace(std::size_t from, std::size_t to);
     bool seeChanged(double y);
     bool see(Face& face, double x, double y) const;
-    bool relabel();
+    void relabel();
     void emitRows(OrderKey until);
     double xAt(std::uint32_t line, double y) const;
     double leftBorder() const { return (leaf_->frame.cell.min.x - leaf_->frame.origin.x) + kBorderRestPx; }
@@ -61,7 +66,7 @@ class EventSweep {
     std::vector<std::uint32_t> order_, begun_;  ///< lines from left to right; those that begin at a point
     std::vector<Face> faces_;                   ///< one more than lines in order_
     std::vector<OpenPiece> pieces_;             ///< one a line
-    std::vector<const FinePoint*> touched_;     ///< one a line: where something has just happened to it
+    std::vector<Touched> touched_;              ///< since the last ordinate
     int next_row_ = 0;
 };
 
