@@ -16,7 +16,8 @@ class EventSweep {
   public:
     /// Whether the owners of the leaf's cell were appended to `out`. False, with `out` untouched, where
     /// rounding could decide anything: an order of lines or of depths, horizontal lines, lines that touch
-    /// without crossing; and where triangles are seen through. O(events + faces that change + faces a row).
+    /// without crossing; where triangles are seen through; and of more than 64 triangles.
+    /// O(events (lines + triangles) + rows * lines).
     bool run(const LeafLines& leaf, CellOutput& out);
 
   private:
