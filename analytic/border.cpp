@@ -5,6 +5,8 @@
 #include <optional>
 #include <tuple>
 
+#include "analytic/sort_few.h"
+
 namespace edgewise {
 namespace {
 
@@ -115,17 +117,9 @@ void sortCrossings(Crossings& c) {
     const auto key = [](const BorderCrossing& x) {
         return std::tie(x.order, x.position, x.before, x.after, x.doubt);
     };
-    const auto before = [&](const BorderCrossing& a, const BorderCrossing& b) {
+    sortFew(c, 16, [&](const BorderCrossing& a, const BorderCrossing& b) {
         return a.order != b.order ? a.order < b.order : key(a) < key(b);
-    };
-    if (c.size() > 16) return std::sort(c.begin(), c.end(), before);
-    for (std::size_t i = 1; i < c.size(); ++i) {  // by insertion: mostly they are two
-        if (!before(c[i], c[i - 1])) continue;
-        const BorderCrossing moved = c[i];
-        std::size_t at = i;
-        for (; at > 0 && before(moved, c[at - 1]); --at) c[at] = c[at - 1];
-        c[at] = moved;
-    }
+    });
 }
 
 /// The label that a cluster leads to: it is entered once more often than it is left.

@@ -36,8 +36,8 @@ struct RowPiece {
 struct VisibilityCounts {
     std::uint64_t pieces = 0;     ///< of segments, before those of neighbouring cells were joined
     std::uint64_t cells = 0;      ///< leaves that were swept
-    std::uint64_t certified = 0;  ///< cells that one sheet covers
     std::uint64_t by_events = 0;  ///< of these, by their events alone: the rest slab by slab
+    std::uint64_t certified = 0;  ///< cells that one sheet covers
     std::uint64_t slabs = 0;
     std::uint64_t depth_lines = 0;  ///< pairs of planes that change order inside a leaf
     std::uint64_t exact_depth = 0;  ///< depth comparisons that the filter left to exact arithmetic

@@ -1,6 +1,8 @@
 // Lines clipped to a cell. Both cells beside a border compute the same bits for the point on it.
 #pragma once
 
+#include <cmath>
+
 #include "analytic/cell.h"
 
 namespace edgewise {
@@ -38,6 +40,9 @@ struct LeafLine {
     double x_low = 0.0, x_high = 0.0;  ///< from the cell's origin, over the part inside
 
     bool runsInside() const { return in0 < in1; }
+    /// Of abscissae in doubles, xAt() among them, px: coordinates within two cells of the origin carry
+    /// roundings of 2^-48 px, the slope one of 2^-52 of itself.
+    double abscissaError() const { return (1.0 + std::abs(slope)) * 0x1p-44; }
     /// Abscissa at an ordinate between in0 and in1, from the frame's origin.
     double xAt(const CellFrame& frame, FineCoordinate y) const {
         const double dy = (y.grid - enter.grid.y) + (y.rest - enter.rest.y);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <stdexcept>
-#include <string>
 
+#include "analytic/instruction_set.h"
 #include "analytic/quad_real.h"
 
 namespace edgewise {
@@ -126,27 +124,20 @@ EdgeKernel::EdgeKernel(const Prefilter& filter, Precision precision) {
 }
 
 EdgeTermsFunction edgeTermsFor(const char* instruction_set, Precision precision) {
+    if (!machineRuns(instruction_set)) return nullptr;
     const bool fp32 = precision == Precision::kFp32;
     const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
     if (is("scalar")) return fp32 ? scalar_fp32::edgeTerms : scalar::edgeTerms;
     if (is("sse2")) return fp32 ? sse2_fp32::edgeTerms : sse2::edgeTerms;
 #if defined(EDGEWISE_HAS_AVX)
-    if (is("avx2") && __builtin_cpu_supports("avx2")) return fp32 ? avx2_fp32::edgeTerms : avx2::edgeTerms;
-    if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-        return fp32 ? avx512_fp32::edgeTerms : avx512::edgeTerms;
+    if (is("avx2")) return fp32 ? avx2_fp32::edgeTerms : avx2::edgeTerms;
+    if (is("avx512")) return fp32 ? avx512_fp32::edgeTerms : avx512::edgeTerms;
 #endif
     return nullptr;
 }
 
 EdgeTermsFunction chooseEdgeTerms(Precision precision) {
-    if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
-        if (EdgeTermsFunction function = edgeTermsFor(forced, precision)) return function;
-        throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
-    }
-    for (const char* name : {"avx512", "avx2", "sse2"})
-        if (EdgeTermsFunction function = edgeTermsFor(name, precision)) return function;
-    return edgeTermsFor("scalar", precision);
+    return bestForm([=](const char* name) { return edgeTermsFor(name, precision); });
 }
 
 }  // namespace edgewise

@@ -7,15 +7,6 @@
 namespace edgewise {
 namespace {
 
-/// Abscissae within two cells of the origin carry roundings of 2^-48 px, a slope one of 2^-52 of itself.
-double unsure(const LeafLine& line) {
-    return (1.0 + std::abs(line.slope)) * 0x1p-44;
-}
-
-bool samePoint(const FinePoint& p, const FinePoint& q) {
-    return p.grid == q.grid && p.rest == q.rest;
-}
-
 template <class T>
 auto at(std::vector<T>& list, std::size_t i) {
     return list.begin() + static_cast<std::ptrdiff_t>(i);
@@ -97,7 +88,8 @@ bool EventSweep::startAtTop() {
         std::size_t place = order_.size();
         for (; place > 0; --place) {
             const LeafLine& other = leaf_->lines[order_[place - 1]];
-            const double d = x - frame.localX(other.enter), least = unsure(line) + unsure(other);
+            const double d = x - frame.localX(other.enter),
+                         least = line.abscissaError() + other.abscissaError();
             if (d > least) break;
             if (d >= -least) return false;
         }
@@ -214,7 +206,7 @@ std::size_t EventSweep::placeOf(const FinePoint& p) const {
 bool EventSweep::clearOfNeighbours(const FinePoint& p, std::size_t from, std::size_t to) const {
     const double x = leaf_->frame.localX(p), y = leaf_->frame.localY(yOf(p));
     const auto clear = [&](std::uint32_t line, double side) {
-        return side * (xAt(line, y) - x) > unsure(leaf_->lines[line]);
+        return side * (xAt(line, y) - x) > leaf_->lines[line].abscissaError();
     };
     return (from == 0 || clear(order_[from - 1], -1.0)) && (to == order_.size() || clear(order_[to], 1.0));
 }
@@ -250,8 +242,8 @@ bool EventSweep::seeChanged(double y) {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         if (!faces_[i].changed) continue;
         double x0 = leftBorder(), x1 = rightBorder(), least = 0.0;
-        if (i > 0) x0 = xAt(order_[i - 1], y), least += unsure(leaf_->lines[order_[i - 1]]);
-        if (i < order_.size()) x1 = xAt(order_[i], y), least += unsure(leaf_->lines[order_[i]]);
+        if (i > 0) x0 = xAt(order_[i - 1], y), least += leaf_->lines[order_[i - 1]].abscissaError();
+        if (i < order_.size()) x1 = xAt(order_[i], y), least += leaf_->lines[order_[i]].abscissaError();
         if (!(x1 - x0 > least) || !see(faces_[i], 0.5 * (x0 + x1), y)) return false;
     }
     return true;

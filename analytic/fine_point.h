@@ -55,6 +55,9 @@ inline FineCoordinate yOf(const FinePoint& p) {
 inline FinePoint finePoint(FineCoordinate x, FineCoordinate y) {
     return {{x.grid, y.grid}, {x.rest, y.rest}};
 }
+inline bool samePoint(const FinePoint& p, const FinePoint& q) {
+    return p.grid == q.grid && p.rest == q.rest;
+}
 inline FinePoint gridPoint(glm::dvec2 p) {
     return {p, {0.0, 0.0}};
 }

@@ -65,21 +65,20 @@ bool meetInVertex(const Carrier& p, const Carrier& q) {
 
 /// A line inside a cell in plain doubles, from the cell's origin.
 struct Course {
-    double x, y, y_end, slope;
+    double x, y, y_end, slope, error;
 
     Course(const LeafLine& line, const CellFrame& frame)
         : x(frame.localX(line.enter)),
           y(frame.localY(yOf(line.enter))),
           y_end(frame.localY(yOf(line.exit))),
-          slope(line.slope) {}
-    /// Of xAt(): coordinates within two cells carry roundings of 2^-48 px, the slope one of 2^-52 of itself.
-    double error() const { return (1.0 + std::abs(slope)) * 0x1p-44; }
+          slope(line.slope),
+          error(line.abscissaError()) {}
     double xAt(double at_y) const { return x + (at_y - y) * slope; }
 };
 
 /// Whether p surely stays on one side of q where both run inside the cell.
 bool staysBeside(const Course& p, const Course& q) {
-    const double y0 = std::max(p.y, q.y), y1 = std::min(p.y_end, q.y_end), error = p.error() + q.error();
+    const double y0 = std::max(p.y, q.y), y1 = std::min(p.y_end, q.y_end), error = p.error + q.error;
     const double d0 = p.xAt(y0) - q.xAt(y0), d1 = p.xAt(y1) - q.xAt(y1);
     return (d0 > error && d1 > error) || (d0 < -error && d1 < -error);
 }

@@ -14,7 +14,7 @@ bool before(const FinePoint& p, const FinePoint& q) {
 
 bool joins(const SegmentPiece& p, const SegmentPiece& q) {
     if (p.key != q.key || p.left != q.left || p.right != q.right) return false;
-    return p.b.grid == q.a.grid && p.b.rest == q.a.rest;
+    return samePoint(p.b, q.a);
 }
 
 Carrier carrierOf(const ScreenScene& scene, LineRef ref) {

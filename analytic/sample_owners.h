@@ -1,10 +1,10 @@
 // Weights of the owners around one sample, which mostly are few.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "analytic/owner_weight.h"
+#include "analytic/sort_few.h"
 
 namespace edgewise {
 
@@ -24,7 +24,8 @@ class SampleOwners {
 
     /// Owners in ascending order, without those of weight 0; to be cleared before the next add().
     void appendTo(std::vector<OwnerWeight>& out) {
-        sort();
+        sortFew(rows_, kSearched,
+                [](const OwnerWeight& a, const OwnerWeight& b) { return a.owner < b.owner; });
         for (std::size_t i = 0; i < rows_.size();) {
             OwnerWeight sum = rows_[i];
             for (++i; i < rows_.size() && rows_[i].owner == sum.owner; ++i)
@@ -35,19 +36,6 @@ class SampleOwners {
 
   private:
     static constexpr std::size_t kSearched = 32;
-
-    /// By owner; by insertion while few are to be moved.
-    void sort() {
-        if (rows_.size() > kSearched)
-            return std::sort(rows_.begin(), rows_.end(),
-                             [](const OwnerWeight& a, const OwnerWeight& b) { return a.owner < b.owner; });
-        for (std::size_t i = 1; i < rows_.size(); ++i) {
-            const OwnerWeight row = rows_[i];
-            std::size_t at = i;
-            for (; at > 0 && row.owner < rows_[at - 1].owner; --at) rows_[at] = rows_[at - 1];
-            rows_[at] = row;
-        }
-    }
 
     static void wrappingAdd(FixedWeight& sum, FixedWeight term) {
         sum = static_cast<FixedWeight>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(term));

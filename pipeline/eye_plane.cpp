@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <stdexcept>
-#include <string>
+
+#include "analytic/instruction_set.h"
 
 namespace edgewise {
 
@@ -102,33 +101,22 @@ glm::dvec3 unitNormal(glm::dvec3 normal, double facing) {
     return normal * ((facing < 0.0 ? -1.0 : 1.0) / std::sqrt(glm::dot(normal, normal)));
 }
 
-EyePlanesFunction chooseEyePlanes() {
-    if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
-        if (EyePlanesFunction function = eyePlanesFor(forced)) return function;
-        throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
-    }
-    for (const char* name : {"avx512", "avx2", "sse2"})
-        if (EyePlanesFunction function = eyePlanesFor(name)) return function;
-    return scalar::eyePlanes;
-}
-
 }  // namespace
 
 EyePlanesFunction eyePlanesFor(const char* instruction_set) {
+    if (!machineRuns(instruction_set)) return nullptr;
     const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
     if (is("scalar")) return scalar::eyePlanes;
     if (is("sse2")) return sse2::eyePlanes;
 #if defined(EDGEWISE_HAS_AVX)
-    if (is("avx2") && __builtin_cpu_supports("avx2")) return avx2::eyePlanes;
-    if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-        return avx512::eyePlanes;
+    if (is("avx2")) return avx2::eyePlanes;
+    if (is("avx512")) return avx512::eyePlanes;
 #endif
     return nullptr;
 }
 
 EyePlanes::EyePlanes(const Scene& scene, const glm::dmat4& camera_from_world, const ScreenMap& map)
-    : scene_(scene), eye_(eyeMap(camera_from_world, map)), planes_(chooseEyePlanes()) {
+    : scene_(scene), eye_(eyeMap(camera_from_world, map)), planes_(bestForm(eyePlanesFor)) {
     for (const Geometry& geometry : scene.geometry) world_.push_back(worldMap(geometry));
 }
 

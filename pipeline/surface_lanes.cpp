@@ -1,9 +1,8 @@
 #include "pipeline/surface_lanes.h"
 
-#include <cstdlib>
 #include <cstring>
-#include <stdexcept>
-#include <string>
+
+#include "analytic/instruction_set.h"
 
 namespace edgewise {
 
@@ -22,26 +21,19 @@ EDGEWISE_DECLARE_SURFACES(avx512)
 
 SurfaceFunctions surfaceFunctionsFor(const char* instruction_set) {
     using namespace surface_lanes;
+    if (!machineRuns(instruction_set)) return {};
     const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
     if (is("scalar")) return {scalar::spread, scalar::locate, scalar::shade};
     if (is("sse2")) return {sse2::spread, sse2::locate, sse2::shade};
 #if defined(EDGEWISE_HAS_AVX)
-    if (is("avx2") && __builtin_cpu_supports("avx2")) return {avx2::spread, avx2::locate, avx2::shade};
-    if (is("avx512") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-        return {avx512::spread, avx512::locate, avx512::shade};
+    if (is("avx2")) return {avx2::spread, avx2::locate, avx2::shade};
+    if (is("avx512")) return {avx512::spread, avx512::locate, avx512::shade};
 #endif
-    return {nullptr, nullptr, nullptr};
+    return {};
 }
 
 SurfaceFunctions chooseSurfaceFunctions() {
-    if (const char* forced = std::getenv("EDGEWISE_ISA"); forced && *forced) {
-        if (const SurfaceFunctions functions = surfaceFunctionsFor(forced); functions.shade) return functions;
-        throw std::invalid_argument("EDGEWISE_ISA: this machine has no '" + std::string(forced) + "'");
-    }
-    for (const char* name : {"avx512", "avx2", "sse2"})
-        if (const SurfaceFunctions functions = surfaceFunctionsFor(name); functions.shade) return functions;
-    return surfaceFunctionsFor("scalar");
+    return bestForm(surfaceFunctionsFor);
 }
 
 }  // namespace edgewise

@@ -53,6 +53,8 @@ struct LaneColors {
 };
 
 struct SurfaceFunctions {
+    explicit operator bool() const { return shade != nullptr; }
+
     /// The triangle from lane `first` on, in all lanes up to kSurfaceLanes.
     void (*spread)(const LaneTriangle&, int first, SurfaceLanes&);
 

@@ -32,8 +32,8 @@ void fetch(const Item& item) {
     __builtin_prefetch(begin + sizeof(Item) - 1);
 }
 
-/// A tile's segments lie far apart in the map, and their lines elsewhere: both are asked for before their
-/// turn.
+/// Segments that end in a tile begin in other cells, and lie there in the map, their lines elsewhere: both
+/// are asked for before their turn.
 void fetchAhead(const VisibleMap& map, std::span<const std::uint32_t> segments, std::size_t k) {
     constexpr std::size_t kSegmentAhead = 16, kLineAhead = 8;
     if (k + kSegmentAhead < segments.size()) fetch(map.segments[segments[k + kSegmentAhead]]);

@@ -137,5 +137,40 @@ TEST(Border, TheOrderOfTheListChangesNothing) {
     EXPECT_GT(exchanged, 100);
 }
 
+/// A crossing that changes nothing sends the list the long way, through clusters: the shares are the same.
+TEST(Border, CrossingsFarApartTakeTheShortWayToTheSameShares) {
+    const unsigned seed = 271828;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> step(0.01, 0.09);
+    std::uniform_int_distribution<int> owner(0, 5);
+    for (int round = 0; round < 1000; ++round) {
+        std::vector<BorderCrossing> chain;
+        const Owner first = static_cast<Owner>(owner(random));
+        Owner label = first;
+        double turns = -0.5;
+        for (int i = 0; i < 7; ++i) {
+            Owner next = static_cast<Owner>(owner(random));
+            if (i == 6) next = first;
+            if (next == label) next = label + 10;
+            chain.push_back(at(turns += step(random), label, next));
+            label = next;
+        }
+        chain.back().after = first;
+        if (chain.back().before == first) chain.pop_back(), chain.back().after = first;
+        if (chain.back().before == first) continue;
+        std::vector<BorderCrossing> longer = chain;
+        const double between =
+            0.5 * (std::ldexp(double(chain[0].position), -60) + std::ldexp(double(chain[1].position), -60));
+        longer.push_back(at(between, chain[0].after, chain[0].after));
+        const Shared one = shared(chain, true, D), other = shared(longer, true, D);
+        ASSERT_EQ(one.conflicts, 0) << "seed " << seed << " round " << round;
+        ASSERT_EQ(other.conflicts, 0) << "seed " << seed << " round " << round;
+        ASSERT_EQ(one.sum, other.sum);
+        ASSERT_EQ(one.share.size(), other.share.size());
+        for (const auto& [who, share] : one.share)
+            ASSERT_NEAR(share, other.share.at(who), 8 * 0x1p-53) << "seed " << seed << " round " << round;
+    }
+}
+
 }  // namespace
 }  // namespace edgewise

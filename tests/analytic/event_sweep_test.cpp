@@ -15,10 +15,6 @@ using witness::SceneKind;
 constexpr std::uint64_t kSeeds = 40;
 constexpr int kReachPx = 4;
 
-bool same(const FinePoint& p, const FinePoint& q) {
-    return p.grid == q.grid && p.rest == q.rest;
-}
-
 bool sameLine(const CarrierLine& l, const CarrierLine& m) {
     return l.origin == m.origin && l.nx_hi == m.nx_hi && l.nx_lo == m.nx_lo && l.ny_hi == m.ny_hi &&
            l.ny_lo == m.ny_lo && l.c_hi == m.c_hi && l.c_lo == m.c_lo;
@@ -28,7 +24,7 @@ void expectSame(const VisibleMap& one, const VisibleMap& two) {
     ASSERT_EQ(one.segments.size(), two.segments.size());
     for (std::size_t i = 0; i < one.segments.size(); ++i) {
         const VisibleSegment &s = one.segments[i], &t = two.segments[i];
-        ASSERT_TRUE(same(s.a, t.a) && same(s.b, t.b)) << "segment " << i;
+        ASSERT_TRUE(samePoint(s.a, t.a) && samePoint(s.b, t.b)) << "segment " << i;
         ASSERT_TRUE(s.left == t.left && s.right == t.right) << "segment " << i;
         ASSERT_TRUE(sameLine(one.lines[s.line], two.lines[t.line])) << "segment " << i;
     }

@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <random>
 
-#include "pipeline/project.h"
-#include "tests/pipeline/shipped_picture.h"
+#include "tests/pipeline/shaded_picture.h"
 
 namespace edgewise {
 namespace {
@@ -21,14 +19,11 @@ struct Asked {
 std::vector<Asked> someSamples(const ScreenScene& screen, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<std::size_t> any(0, screen.triangles.size() - 1);
-    std::uniform_real_distribution<double> near(-3.0, 3.0);
     std::uniform_int_distribution<int> times(1, 20);
     std::vector<Asked> asked;
     while (asked.size() < 2000) {
         const ScreenTriangle& t = screen.triangles[any(random)];
-        const glm::dvec2 middle = (t.p_px[0] + t.p_px[1] + t.p_px[2]) / 3.0;
-        for (int i = times(random); i > 0; --i)
-            asked.push_back({t.owner, glm::floor(middle + glm::dvec2(near(random), near(random))) + 0.5});
+        for (int i = times(random); i > 0; --i) asked.push_back({t.owner, test::sampleNear(t, random)});
     }
     std::shuffle(asked.begin(), asked.end(), random);
     return asked;
@@ -38,13 +33,9 @@ class ShadeGroups : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShadeGroups, GivesTheBitsOfOneSampleWithEveryInstructionSet) {
     const unsigned seed = 2718;
-    const test::ShippedPicture picture = test::shippedPicture(GetParam(), 64);
-    ScreenPieces pieces;
-    Progress progress;
-    const ScreenScene screen = project(picture.scene, picture.camera, picture.film, pieces, progress);
-    ASSERT_FALSE(screen.triangles.empty());
-    const Shading shading(picture.scene, picture.camera, picture.film, screen, pieces);
-    const std::vector<Asked> asked = someSamples(screen, seed);
+    const test::ShadedPicture shaded(GetParam());
+    const Shading& shading = shaded.shading;
+    const std::vector<Asked> asked = someSamples(shaded.screen, seed);
     int sets = 0;
     for (const char* set : {"scalar", "sse2", "avx2", "avx512"}) {
         if (!surfaceFunctionsFor(set).shade) continue;
@@ -69,9 +60,7 @@ TEST_P(ShadeGroups, GivesTheBitsOfOneSampleWithEveryInstructionSet) {
     EXPECT_GE(sets, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShadeGroups,
-                         testing::Values("zone-plate", "log-grid", "torus-20k", "torus-sequence",
-                                         "random-2k"),
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadeGroups, test::shadedScenes(),
                          [](const auto& p) { return test::testName(p.param); });
 
 }  // namespace

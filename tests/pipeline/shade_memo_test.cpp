@@ -1,11 +1,7 @@
 // Shading with a memory gives the bits of shading without one.
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "pipeline/project.h"
-#include "pipeline/shade.h"
-#include "tests/pipeline/shipped_picture.h"
+#include "tests/pipeline/shaded_picture.h"
 
 namespace edgewise {
 namespace {
@@ -16,22 +12,17 @@ class ShadeMemo : public testing::TestWithParam<std::string> {};
 TEST_P(ShadeMemo, ChangesNoBit) {
     const unsigned seed = 4711;
     std::mt19937 random(seed);
-    const test::ShippedPicture picture = test::shippedPicture(GetParam(), 64);
-    ScreenPieces pieces;
-    Progress progress;
-    const ScreenScene screen = project(picture.scene, picture.camera, picture.film, pieces, progress);
-    ASSERT_FALSE(screen.triangles.empty());
-    const Shading shading(picture.scene, picture.camera, picture.film, screen, pieces);
+    const test::ShadedPicture shaded(GetParam());
+    const Shading& shading = shaded.shading;
+    const ScreenScene& screen = shaded.screen;
     Shading::Memo memo;
     std::uniform_int_distribution<std::size_t> any(0, screen.triangles.size() - 1);
-    std::uniform_real_distribution<double> near(-3.0, 3.0);
     std::vector<std::size_t> few(12);
     for (int round = 0; round < 400; ++round) {
         few[static_cast<std::size_t>(round) % few.size()] = any(random);
         for (const std::size_t i : few) {
             const ScreenTriangle& t = screen.triangles[i];
-            const glm::dvec2 middle = (t.p_px[0] + t.p_px[1] + t.p_px[2]) / 3.0;
-            const glm::dvec2 sample = glm::floor(middle + glm::dvec2(near(random), near(random))) + 0.5;
+            const glm::dvec2 sample = test::sampleNear(t, random);
             const Shade with = shading.closest(t.owner, sample, memo),
                         without = shading.closest(t.owner, sample);
             ASSERT_EQ(with.color, without.color) << "seed " << seed << " triangle " << t.owner;
@@ -42,9 +33,7 @@ TEST_P(ShadeMemo, ChangesNoBit) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShadeMemo,
-                         testing::Values("zone-plate", "log-grid", "torus-20k", "torus-sequence",
-                                         "random-2k"),
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadeMemo, test::shadedScenes(),
                          [](const auto& p) { return test::testName(p.param); });
 
 }  // namespace
