@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/edgewise)
 
-set(parts options analytic scenes pipeline)
+set(parts options analytic sdf scenes pipeline)
 if(EDGEWISE_ORACLE)
   list(APPEND parts exact)
 endif()
@@ -14,7 +14,7 @@ endforeach()
 install(TARGETS edgewise)
 install(EXPORT edgewise_targets NAMESPACE edgewise:: FILE edgewiseTargets.cmake DESTINATION ${package_folder})
 
-foreach(room analytic pipeline shaders)
+foreach(room analytic sdf pipeline shaders)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgewise
     FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN cli EXCLUDE)
 endforeach()

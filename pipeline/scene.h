@@ -12,6 +12,10 @@
 
 namespace edgewise {
 
+namespace sdf {
+struct FieldScene;
+}
+
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// 8-bit or float texels decoded to linear RGBA doubles on access; row 0 is the top row.
@@ -129,6 +133,8 @@ struct Scene {
     std::vector<Ignored> ignored;
     std::size_t triangle_count = 0;
     glm::dvec3 bounds_min{0.0}, bounds_max{0.0};
+    std::shared_ptr<const sdf::FieldScene>
+        field;  ///< an SDF scene; cameras, lights and bounds above are its own
 };
 
 /// Where triangle `index` of the scene lives.

@@ -1,0 +1,62 @@
+// What methods ask of a device that traces an SDF scene: colours and hits at sample positions of a window.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/methods/method.h"
+#include "sdf/field_scene.h"
+#include "sdf/trace_settings.h"
+
+namespace edgewise {
+
+enum class FieldIntegrator : unsigned char {
+    kDirect,  ///< the lights that reach the hit; reflection and refraction by Whitted where materials have
+              ///< them
+    kPath     ///< path traced
+};
+
+struct FieldSettings {
+    sdf::TraceSettings trace;
+    FieldIntegrator integrator = FieldIntegrator::kDirect;
+    int path_samples = 1;
+    std::uint64_t seed = 0;
+};
+
+/// Samples of a window of pixels, row by row: a pixel has per_side^2 samples of the lattice, or one at
+/// `positions_px` (by pixel).
+struct FieldWindow {
+    PixelBox pixels;
+    int per_side = 1;
+    std::vector<glm::dvec2> positions_px;
+    std::size_t stride() const { return static_cast<std::size_t>(pixels.width()) * per_side; }
+    std::size_t samples() const { return stride() * pixels.height() * per_side; }
+};
+
+/// One entry a sample.
+struct FieldSamples {
+    std::vector<glm::dvec4> color;  ///< linear; the background's colour and alpha 0 where nothing is hit
+    std::vector<double> depth;  ///< along the ray from the eye (orthographic: the image plane), world units;
+                                ///< infinite: nothing is hit
+    std::vector<glm::vec3> normal;       ///< unit, world; 0: nothing is hit
+    std::vector<std::uint32_t> surface;  ///< the material; kNone: nothing is hit
+    std::vector<float> residual;         ///< the field's value at the hit
+    std::vector<std::uint32_t> evaluations, iterations;
+};
+
+class FieldTracer {
+  public:
+    virtual ~FieldTracer() = default;
+    virtual FieldSamples trace(const FieldWindow& window) = 0;
+    /// Adds its stage times, plan, counts, notes, set-up and device.
+    virtual void report(MethodResult& result) const = 0;
+};
+
+/// Refer to the input, which outlives them. Throw InputError for a scene that the device cannot trace.
+std::unique_ptr<FieldTracer> makeCpuFieldTracer(const MethodInput& input, const FieldSettings& settings);
+std::unique_ptr<FieldTracer> makeVulkanFieldTracer(const MethodInput& input, const FieldSettings& settings);
+
+}  // namespace edgewise

@@ -1,0 +1,53 @@
+// An SDF as a list of instructions on numbered slots: what every evaluator runs, and what pruning shortens.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sdf/codes.h"
+
+namespace edgewise::sdf {
+
+inline constexpr std::uint32_t kNoMaterial = 0xffffffffu;
+
+/// Slots for positions and for values; a tree that needs more of either is refused when it is lowered.
+inline constexpr int kMostSlots = 128;
+
+struct Instruction {
+    Code code = Code::keep;
+    /// Shapes: value slot `to` from position slot `a`. Moves: position slot `to` from position slot `a`.
+    /// Values: value slot `to` from itself, with position slot `b` where the code asks for one. Pairs: value
+    /// slot `to` from itself and value slot `b`. keep: value slot `to` from value slot `b`.
+    std::uint8_t to = 0, a = 0, b = 0;
+    std::uint32_t numbers = 0;             ///< where its numbers begin in Tape::numbers
+    std::uint32_t material = kNoMaterial;  ///< of shapes
+    std::uint32_t node = 0;                ///< of the tree it was lowered from
+    /// How fast the result changes with the world's position: |difference| <= lipschitz * distance. Moves: of
+    /// the position.
+    double lipschitz = 1.0;
+};
+
+/// The world's position is position slot 0; the result is value slot 0.
+struct Tape {
+    std::vector<Instruction> instructions;
+    std::vector<double> numbers;
+    int positions = 1, values = 1;  ///< slots in use
+    double lipschitz = 1.0;         ///< of the whole
+
+    std::size_t size() const { return instructions.size(); }
+};
+
+/// What an instruction is, for those that print or analyse it.
+struct CodeInfo {
+    std::string_view name;  ///< of its function in the shared text
+    CodeForm form;
+    /// Its numbers in order: 'r' a real, 'v' three of a vector.
+    std::string_view numbers;
+    int numberCount() const;
+};
+const CodeInfo& codeInfo(Code code);
+
+}  // namespace edgewise::sdf
