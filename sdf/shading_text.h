@@ -1,4 +1,4 @@
-// shaders/shared/sdf_shading.glsl as C++: double in `shading`, and float as GLSL has it in `shading_float`.
+// shaders/shared/sdf_shading.glsl and sdf_path.glsl as C++: double in `shading`, and float as GLSL has it in `shading_float`.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -27,12 +27,16 @@ using real = double;
 using vec3 = glm::dvec3;
 using glm::dot, glm::length;
 #include "shaders/shared/sdf_shading.glsl"
+
+#include "shaders/shared/sdf_path.glsl"
 }  // namespace shading
 namespace shading_float {
 using real = float;
 using vec3 = glm::vec3;
 using glm::dot, glm::length;
 #include "shaders/shared/sdf_shading.glsl"
+
+#include "shaders/shared/sdf_path.glsl"
 }  // namespace shading_float
 
 }  // namespace edgewise::sdf

@@ -109,7 +109,7 @@ TravellingRay rayFrom(const ShadingSettings& settings, const TravellingRay& from
 TravellingRay rayThrough(const ShadingSettings& settings, const TravellingRay& from, const SurfaceHit& hit,
                          const SurfacePoint& point, const glm::dvec3& direction) {
     const glm::dvec3 origin = hit.p_world - point.normal * point.offset;
-    return {secondaryRay(point, origin, direction, settings.far), hit.of_field ? -from.sign : from.sign,
+    return {secondaryRay(point, origin, direction, settings.far), hit.ofField() ? -from.sign : from.sign,
             hit.inside ? kNoMaterial : hit.material, from.travelled + hit.t};
 }
 

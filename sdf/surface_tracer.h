@@ -10,8 +10,9 @@ namespace edgewise::sdf {
 
 /// Where a ray meets the field or an analytic shape.
 struct SurfaceHit {
+    static constexpr std::uint32_t kField = 0xffffffffu;
     bool hit = false;
-    bool of_field = true;  ///< else of an analytic shape
+    std::uint32_t shape = kField;  ///< of FieldScene::analytic
     bool inside = false;   ///< the ray comes from within the solid
     double t = 0.0;        ///< along the ray
     glm::dvec3 p_world{0.0};
@@ -20,6 +21,7 @@ struct SurfaceHit {
     std::uint32_t material = 0;
     double value = 0.0;  ///< the field's there; analytic shapes: 0
     std::uint32_t evaluations = 0, iterations = 0;
+    bool ofField() const { return shape == kField; }
 };
 
 /// `sign` is -1 for rays that are within the field's solid. Safe for many threads at once.

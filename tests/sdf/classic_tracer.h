@@ -22,11 +22,13 @@ class ClassicTracer : public SurfaceTracer {
 
     SurfaceHit nearest(const FieldRay& ray, double sign) const override {
         SurfaceHit hit = fieldHit(ray, sign);
-        for (const AnalyticShape& shape : scene_.analytic) {
+        for (std::uint32_t i = 0; i < scene_.analytic.size(); ++i) {
+            const AnalyticShape& shape = scene_.analytic[i];
             const double t =
                 shape.type == AnalyticShape::Type::kSphere ? sphere(shape, ray) : plane(shape, ray);
             if (t < ray.t_min || t > ray.t_max || (hit.hit && t >= hit.t)) continue;
             hit = analyticHit(shape, ray, t, hit.evaluations);
+            hit.shape = i;
         }
         return hit;
     }
@@ -75,7 +77,7 @@ class ClassicTracer : public SurfaceTracer {
     static SurfaceHit analyticHit(const AnalyticShape& shape, const FieldRay& ray, double t,
                                   std::uint32_t evaluations) {
         SurfaceHit hit;
-        hit.hit = true, hit.of_field = false, hit.t = t, hit.evaluations = evaluations;
+        hit.hit = true, hit.t = t, hit.evaluations = evaluations;
         hit.p_world = ray.origin_world + ray.direction_world * t;
         hit.material = shape.material;
         const bool is_sphere = shape.type == AnalyticShape::Type::kSphere;
