@@ -40,6 +40,14 @@ struct LaneMask {
 struct Lanes {
     one::real part[kParts];
     Lanes() = default;
+    // Part by part: as a block of memory it would be copied in pieces that loads of whole parts must wait for.
+    EDGEWISE_FN Lanes(const Lanes& other) {
+        for (int i = 0; i < kParts; ++i) part[i] = other.part[i];
+    }
+    EDGEWISE_FN Lanes& operator=(const Lanes& other) {
+        for (int i = 0; i < kParts; ++i) part[i] = other.part[i];
+        return *this;
+    }
     EDGEWISE_FN explicit Lanes(double number) {
         for (one::real& p : part) p = one::splat(number);
     }
@@ -109,7 +117,8 @@ EDGEWISE_FN Lanes cosine(const Lanes& x) { return text::cosine(x); }
 
 EDGEWISE_FN Lanes load(const double* numbers) {
     Lanes lanes;
-    __builtin_memcpy(&lanes, numbers, sizeof lanes);
+    for (int i = 0; i < kParts; ++i)
+        __builtin_memcpy(&lanes.part[i], numbers + i * EDGEWISE_LANES, sizeof lanes.part[i]);
     return lanes;
 }
 }  // namespace
@@ -122,7 +131,8 @@ void laneValues(const Instruction* begin, const Instruction* end, const double* 
     Slots<Lanes>& s = slots;
     s.position[0] = Vec3<Lanes>(load(p.axis[0]), load(p.axis[1]), load(p.axis[2]));
     for (const Instruction* i = begin; i != end; ++i) step(*i, numbers + i->numbers, s);
-    __builtin_memcpy(values, &s.value[0], sizeof(Lanes));
+    for (int i = 0; i < kParts; ++i)
+        __builtin_memcpy(values + i * EDGEWISE_LANES, &s.value[0].part[i], sizeof(one::real));
 }
 
 }  // namespace edgewise::sdf::EDGEWISE_ISA
