@@ -44,6 +44,13 @@ class SceneTracer {
     /// Whether anything lies between the ray's t_min and `distance`.
     bool occluded(const FieldRay& ray, double distance, TraceCounts* counts = nullptr) const;
 
+    /// Shortens a ray to the convex bound, if the scene has one; false: it misses it, and so the field.
+    bool withinBound(FieldRay& ray) const;
+    /// The closed form's nearest, where it is nearer than `nearest`.
+    void meetAnalytic(const FieldRay& ray, FieldHit& nearest) const;
+    /// What is known of a hit of the field beyond where it is.
+    void place(const FieldRay& ray, const TraceHit& hit, FieldHit& out) const;
+
     /// How far a secondary ray starts from a hit along the normal (section 3.3): 2 max(epsilon, |f|).
     /// `eye_distance`: what the settings' epsilon is relative to.
     double secondaryOffset(const FieldHit& hit, double eye_distance) const;
@@ -59,7 +66,7 @@ class SceneTracer {
 
   private:
     void meetField(const FieldRay& ray, FieldHit& nearest, TraceCounts* counts) const;
-    void meetAnalytic(const FieldRay& ray, FieldHit& nearest) const;
+    TraceHit traceField(const FieldRay& ray, double sign) const;
 
     const FieldScene& scene_;
     const Tape& tape_;

@@ -15,8 +15,9 @@ const int kRayFar = 2;   // nothing up to t_max
 
 /// What Balint and Valasek step of what a plane would allow beyond a sphere's radius.
 const real kBalintShare = real(0.9);
-/// How much of auto's slope each step replaces.
-const real kAutoShare = real(0.3);
+/// How much of auto's slope each step replaces. Ban and Valasek's 0.3 is best where failed steps are forgotten; here they
+/// cost less, so that omega may follow faster.
+const real kAutoShare = real(0.5);
 
 struct TraceRules {
     int relaxation;
@@ -38,6 +39,9 @@ struct TraceState {
     real candidate_t;      ///< the point nearest to a surface in pixels,
     real candidate_value;  ///< f / L there,
     real candidate_error;  ///< and the sphere's radius there in radii of a pixel
+    real far_t;            ///< auto: where the last step that failed led,
+    real far_value;        ///< f / L there,
+    real wall;             ///< and beyond which no step goes: it lies behind a surface
     int end;
     int failed;            ///< steps taken back
 };
@@ -57,6 +61,9 @@ EDGEWISE_FN TraceState traceFrom(TraceRules rules, real t_min) {
     s.candidate_t = t_min;
     s.candidate_value = real(0.0);
     s.candidate_error = real(1e30);
+    s.far_t = t_min;
+    s.far_value = real(0.0);
+    s.wall = rules.t_max;
     s.end = t_min < rules.t_max ? kRayGoes : kRayFar;
     s.failed = 0;
     return s;
@@ -90,8 +97,9 @@ EDGEWISE_FN real relaxedStep(TraceRules rules, TraceState s, real slope) {
 }
 
 /// A step that may have passed a surface. Listing 2 goes on at omega (2 - omega) times the radius and relaxes no more;
-/// the others at the radius, and relax again.
-EDGEWISE_FN TraceState takeBack(TraceRules rules, TraceState s) {
+/// the others at the radius, and relax again. Auto remembers what was found: free space that the next step may reach, or
+/// that a surface lies before it.
+EDGEWISE_FN TraceState takeBack(TraceRules rules, TraceState s, real t, real value, real radius) {
     s.failed = s.failed + 1;
     s.slope = real(-1.0);
     s.step = s.radius;
@@ -99,17 +107,18 @@ EDGEWISE_FN TraceState takeBack(TraceRules rules, TraceState s) {
         s.step = s.radius * (s.omega * (real(2.0) - s.omega));
         s.omega = real(1.0);
     }
+    if (rules.relaxation == kRelaxAuto) {
+        s.far_t = t;
+        s.far_value = value;
+        if (radius < real(0.0)) s.wall = min(s.wall, t + radius);
+    }
     return s;
 }
 
-/// `value`: f / L at traceAt(s), times the ray's sign.
-EDGEWISE_FN TraceState traceTake(TraceRules rules, TraceState s, real value) {
-    real t = s.t + s.step;
+/// Goes on from a point whose sphere overlaps the last one's.
+EDGEWISE_FN TraceState moveTo(TraceRules rules, TraceState s, real t, real value) {
     real radius = sphereRadius(rules, t, value);
-    bool relaxed = s.step > s.radius;
-    bool overlaps = radius >= real(0.0) && s.radius + radius >= s.step;
-    if (relaxed && !overlaps) return takeBack(rules, s);
-    real slope = s.step > real(0.0) ? (radius - s.radius) / s.step : real(-1.0);
+    real slope = t > s.t ? (radius - s.radius) / (t - s.t) : real(-1.0);
     s.slope = s.slope + kAutoShare * (slope - s.slope);
     s.t = t;
     s.radius = radius;
@@ -124,9 +133,23 @@ EDGEWISE_FN TraceState traceTake(TraceRules rules, TraceState s, real value) {
         s.end = kRayHit;
     } else if (t + radius >= rules.t_max) {
         s.end = kRayFar;
-    } else {
-        s.step = min(relaxedStep(rules, s, slope), rules.t_max - t);
     }
+    // The wall holds back what is relaxed alone: fields that break their bound must not stand still before it.
+    real step = min(relaxedStep(rules, s, slope), max(s.wall - t, radius));
+    s.step = min(step, rules.t_max - t);
+    return s;
+}
+
+/// `value`: f / L at traceAt(s), times the ray's sign.
+EDGEWISE_FN TraceState traceTake(TraceRules rules, TraceState s, real value) {
+    real t = traceAt(s);
+    real radius = sphereRadius(rules, t, value);
+    bool relaxed = s.step > s.radius;
+    bool overlaps = radius >= real(0.0) && s.radius + radius >= s.step;
+    if (relaxed && !overlaps) return takeBack(rules, s, t, value, radius);
+    s = moveTo(rules, s, t, value);
+    bool reaches = s.far_t > s.t && s.t + s.radius >= s.far_t - sphereRadius(rules, s.far_t, s.far_value);
+    if (!traceEnded(s) && reaches) s = moveTo(rules, s, s.far_t, s.far_value);
     return s;
 }
 
