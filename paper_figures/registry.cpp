@@ -8,6 +8,8 @@ const std::vector<Figure>& figureRegistry() {
          "frequency response, ringing, blur and aliasing of every filter", makeFilterStudy},
         {"performance", "ours", "time against error, growth, stages and the distance to the ideal",
          makePerformance},
+        {"sphere-tracing", "Enhanced sphere tracing, sections 3 and 4",
+         "what relaxation, cones, pruning and Keinert's other enhancements save", makeSphereTracing},
     };
     return figures;
 }

@@ -1,0 +1,74 @@
+// What the sphere-tracing page measures: Keinert et al. 2014 beside what came after, on scenes of our own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "paper_figures/figure.h"
+#include "paper_figures/figure_plot.h"
+#include "pipeline/field_tracer.h"
+
+namespace edgewise::figures {
+
+/// Rays of one picture under one setting. Times are of tracing and shading, medians over the runs.
+struct TraceRun {
+    std::string setting;
+    bool parameter_free = false;
+    double seconds = 0.0;
+    std::uint64_t evaluations = 0, iterations = 0;
+    std::uint64_t changed = 0;  ///< pixels that hit something else than classic tracing hits
+};
+
+struct TracedScene {
+    std::string name;
+    int width = 0, height = 0;
+    std::uint64_t rays = 0;
+    std::vector<TraceRun> runs;              ///< the first is classic
+    std::optional<double> published;         ///< Keinert's ratio of times, on a scene of his own of that kind
+    std::string remark;
+    double ratioOf(const TraceRun& run) const { return double(runs[0].evaluations) / double(run.evaluations); }
+};
+
+/// Section 3.2: pixels at `steps` steps whose normal is not that of rays that may take all they need.
+struct CandidateCount {
+    std::string scene;
+    int steps = 0;
+    std::uint64_t pixels = 0, wrong_last = 0, wrong_screen = 0;
+};
+
+/// Section 3.4: jumps of f(p) from pixel to pixel of one surface, where slope times cosine is at least 0.6.
+struct JumpCount {
+    std::string scene;
+    std::uint64_t pairs = 0;
+    double median_before = 0.0, median_after = 0.0;  ///< world units, with 0 and 3 steps
+};
+
+struct PruningCount {
+    std::string scene;
+    int width = 0, height = 0;
+    double seconds_whole = 0.0, seconds_pruned = 0.0, build_seconds = 0.0;
+    double instructions_whole = 0.0, instructions_pruned = 0.0;  ///< an evaluation
+    std::uint64_t differing = 0;                                 ///< pixels whose depth differs in any bit
+};
+
+struct SphereTracing {
+    bool quick = false;
+    int runs = 1;
+    std::vector<TracedScene> scenes;
+    std::vector<TracedScene> convex;  ///< with the shortcut and without
+    std::vector<CandidateCount> candidates;
+    std::vector<JumpCount> jumps;
+    std::vector<PruningCount> pruning;
+    std::vector<FigureFile> pictures;  ///< PNG
+    std::vector<std::string> notes;
+};
+
+/// Of a setting over all scenes that have it.
+double geometricMeanRatio(const SphereTracing& found, const std::string& setting);
+
+std::string sphereTracingHtml(const SphereTracing& found);
+std::string sphereTracingJson(const SphereTracing& found);
+
+}  // namespace edgewise::figures

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "paper_figures/sphere_tracing.h"
+#include "pipeline/compare/base64.h"
+#include "pipeline/compare/report_page.h"
+#include "pipeline/html_text.h"
+#include "pipeline/version.h"
+
+namespace edgewise::figures {
+namespace {
+
+constexpr const char* kStyle = R"css(
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px}
+.pictures img{width:100%;image-rendering:pixelated}
+p.under{font-size:13px;color:#444;margin:8px 0 0}
+)css";
+
+std::string table(const std::string& heads, const std::string& rows) {
+    return fmt::format(
+        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", heads, rows);
+}
+
+std::string number(double value, const char* format) {
+    return fmt::format("<td data-value='{}'>{}</td>", value, fmt::format(fmt::runtime(format), value));
+}
+
+std::string runsTable(const std::vector<TracedScene>& scenes) {
+    std::string rows;
+    for (const TracedScene& scene : scenes)
+        for (const TraceRun& run : scene.runs) {
+            const bool first = &run == &scene.runs.front();
+            rows += fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(scene.name), escapedHtml(run.setting)) +
+                    number(double(run.evaluations) / double(scene.rays), "{:.2f}") +
+                    number(scene.ratioOf(run), "{:.3f}") + number(1e3 * run.seconds, "{:.0f}") +
+                    number(scene.runs[0].seconds / run.seconds, "{:.3f}") +
+                    number(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
+                    (scene.published && !first ? number(*scene.published, "{:.2f}") : std::string("<td data-value=''></td>")) +
+                    "</tr>\n";
+        }
+    return table(
+        "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>classic's over it</th><th>ms</th><th>classic's over "
+        "it</th><th>other hits, %</th><th>published ratio of times</th>",
+        rows);
+}
+
+std::string meansTable(const SphereTracing& found) {
+    std::string rows;
+    for (const TraceRun& run : found.scenes.front().runs) {
+        double least = INFINITY;
+        for (const TracedScene& scene : found.scenes)
+            for (const TraceRun& other : scene.runs)
+                if (other.setting == run.setting) least = std::min(least, scene.ratioOf(other));
+        rows += fmt::format("<tr><td>{}</td><td></td>", escapedHtml(run.setting)) +
+                number(geometricMeanRatio(found, run.setting), "{:.3f}") + number(least, "{:.3f}") + "</tr>\n";
+    }
+    return table("<th>setting</th><th></th><th>geometric mean</th><th>least of all scenes</th>", rows);
+}
+
+std::string candidatesTable(const SphereTracing& found) {
+    std::string rows;
+    for (const CandidateCount& c : found.candidates)
+        rows += fmt::format("<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                            escapedHtml(c.scene), c.steps, c.pixels, c.wrong_last, c.wrong_screen);
+    return table("<th>scene</th><th></th><th>pixels</th><th>wrong, last point</th><th>wrong, screen-space candidate</th>",
+                 rows);
+}
+
+std::string jumpsTable(const SphereTracing& found) {
+    std::string rows;
+    for (const JumpCount& j : found.jumps)
+        rows += fmt::format("<tr><td>{}</td><td></td><td>{}</td>", escapedHtml(j.scene), j.pairs) +
+                number(j.median_before, "{:.3g}") + number(j.median_after, "{:.3g}") +
+                number(j.median_after > 0.0 ? j.median_before / j.median_after : INFINITY, "{:.1f}") + "</tr>\n";
+    return table("<th>scene</th><th></th><th>pairs of pixels</th><th>median jump</th><th>after 3 steps</th><th>falls by</th>",
+                 rows);
+}
+
+std::string pruningTable(const SphereTracing& found) {
+    std::string rows;
+    for (const PruningCount& p : found.pruning)
+        rows += fmt::format("<tr><td>{}</td><td>{}x{}</td>", escapedHtml(p.scene), p.width, p.height) +
+                number(p.instructions_whole, "{:.0f}") + number(p.instructions_pruned, "{:.1f}") +
+                number(p.seconds_whole, "{:.3f}") + number(p.seconds_pruned, "{:.3f}") +
+                number(p.seconds_whole / p.seconds_pruned, "{:.1f}") + number(p.build_seconds, "{:.3f}") +
+                fmt::format("<td>{}</td></tr>\n", p.differing);
+    return table(
+        "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>s</th><th>pruned, s</th><th>times "
+        "faster</th><th>of it pruning, s, all threads</th><th>differing depths</th>",
+        rows);
+}
+
+std::string pictures(const SphereTracing& found) {
+    std::string out;
+    for (const FigureFile& picture : found.pictures)
+        out += fmt::format("<figure class='card'><img alt='{0}' src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
+                           escapedHtml(picture.name),
+                           compare::base64({reinterpret_cast<const unsigned char*>(picture.bytes.data()), picture.bytes.size()}));
+    return out.empty() ? out : "<h2>Pictures</h2><div class='pictures'>" + out + "</div>";
+}
+
+std::string notes(const SphereTracing& found) {
+    std::string out;
+    for (const std::string& note : found.notes) out += fmt::format("<li>{}</li>\n", escapedHtml(note));
+    return out.empty() ? out : "<div class='card'><ul>" + out + "</ul></div>\n";
+}
+
+constexpr const char* kWords =
+    "<p class='under'>Evaluations of the field a primary ray; those of cones are counted among the tile's rays. Times are "
+    "of tracing and shading, medians, all settings by turns. Other hits: pixels whose ray ends on nothing where classic "
+    "tracing ends on something, or the reverse, or at a depth that differs by more than thresholds allow. Published: "
+    "Keinert et al. 2014, on a GTX Titan and on scenes of theirs that are not published; ours are of the same kinds and "
+    "are not made to match.</p>\n";
+
+}  // namespace
+
+double geometricMeanRatio(const SphereTracing& found, const std::string& setting) {
+    double sum = 0.0;
+    int count = 0;
+    for (const TracedScene& scene : found.scenes)
+        for (const TraceRun& run : scene.runs)
+            if (run.setting == setting) sum += std::log(scene.ratioOf(run)), ++count;
+    return count == 0 ? 0.0 : std::exp(sum / count);
+}
+
+std::string sphereTracingHtml(const SphereTracing& found) {
+    return fmt::format(
+               "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
+               "content='width=device-width'><title>Sphere tracing</title><link rel='icon' href='data:,'><style>{}{}</style>"
+               "</head><body><main><h1>Sphere tracing</h1><p>edgewise {}, <code>edgewise figure sphere-tracing{} -o "
+               "DIR</code>, CPU, {} run{}</p>\n",
+               compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "", found.runs,
+               found.runs == 1 ? "" : "s") +
+           "<h2>Relaxation and cones: all scenes</h2>" + meansTable(found) + "<h2>Scene by scene</h2>" +
+           runsTable(found.scenes) + kWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
+           "<h2>Out of steps: which point is the hit</h2>" + candidatesTable(found) +
+           "<h2>Discontinuity reduction</h2>" + jumpsTable(found) + "<h2>Pruning</h2>" + pruningTable(found) +
+           pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript + "</script></body></html>\n";
+}
+
+std::string sphereTracingJson(const SphereTracing& found) {
+    using Json = nlohmann::ordered_json;
+    const auto scenesJson = [](const std::vector<TracedScene>& scenes) {
+        Json list = Json::array();
+        for (const TracedScene& scene : scenes) {
+            Json runs = Json::array();
+            for (const TraceRun& run : scene.runs)
+                runs.push_back({{"setting", run.setting},
+                                {"seconds", run.seconds},
+                                {"evaluations", run.evaluations},
+                                {"iterations", run.iterations},
+                                {"other_hits", run.changed}});
+            list.push_back({{"scene", scene.name},
+                            {"size", {scene.width, scene.height}},
+                            {"rays", scene.rays},
+                            {"published", scene.published ? Json(*scene.published) : Json()},
+                            {"runs", runs}});
+        }
+        return list;
+    };
+    Json json{{"scenes", scenesJson(found.scenes)}, {"convex", scenesJson(found.convex)}};
+    for (const CandidateCount& c : found.candidates)
+        json["candidates"].push_back({{"scene", c.scene},
+                                      {"steps", c.steps},
+                                      {"pixels", c.pixels},
+                                      {"wrong_last", c.wrong_last},
+                                      {"wrong_screen", c.wrong_screen}});
+    for (const JumpCount& j : found.jumps)
+        json["jumps"].push_back({{"scene", j.scene},
+                                 {"pairs", j.pairs},
+                                 {"median_before", j.median_before},
+                                 {"median_after", j.median_after}});
+    for (const PruningCount& p : found.pruning)
+        json["pruning"].push_back({{"scene", p.scene},
+                                   {"size", {p.width, p.height}},
+                                   {"seconds_whole", p.seconds_whole},
+                                   {"seconds_pruned", p.seconds_pruned},
+                                   {"prune_seconds", p.build_seconds},
+                                   {"instructions_whole", p.instructions_whole},
+                                   {"instructions_pruned", p.instructions_pruned},
+                                   {"differing", p.differing}});
+    return json.dump(2) + "\n";
+}
+
+}  // namespace edgewise::figures
