@@ -37,7 +37,6 @@ bool isEven(const Tree& tree, std::uint32_t index, int axis) {
         case Kind::kGyroid:
         case Kind::kRotate:
         case Kind::kTwist:
-        case Kind::kRepeat:
         case Kind::kDisplace:
             return false;
         case Kind::kTranslate:
@@ -215,6 +214,11 @@ class Lowering {
         cells.insert(cells.end(), count.begin(), count.end());
         double lipschitz = child(node, move(Code::repeatBy, at, cells));
         if (even || box.empty()) return lipschitz;
+        // On such a wall the bound would be 0, as on a surface.
+        for (int i = 0; i < 3; ++i)
+            if (count[i] > 0.0 && margin[i] == 0.0)
+                throw SceneError(node.path,
+                                 "repeats a child that fills its cells and is not its own mirror image");
         lipschitz = std::max(lipschitz, boxedChild(node, at, cells, box));
         cells.insert(cells.end(), margin.begin(), margin.end());
         return value(Code::withinWalls, at, cells, std::max(lipschitz, at.slope));
