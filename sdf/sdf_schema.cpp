@@ -65,9 +65,25 @@ Json rotateSchema() {
     return closed(properties, {"axis", "degrees"}, "applied after scale, before at");
 }
 
+/// Beside a node's own numbers; each a definition of that name.
+Json commonDefinitions() {
+    Json definitions{{"rotate", rotateSchema()}, {"material-name", kText}};
+    addNumbers(definitions, {commonKeys().lipschitz, commonKeys().scale, commonKeys().at});
+    // Kinds have these names too.
+    for (const char* name : {"rotate", "scale"}) {
+        definitions[std::string("node-") + name] = definitions[name];
+        definitions.erase(name);
+    }
+    return definitions;
+}
+
 Json kindSchema(const KindInfo& kind) {
-    Json properties{{"type", {{"const", kind.name}}}, {"material", kText}, {"rotate", rotateSchema()}};
-    addNumbers(properties, {commonKeys().lipschitz, commonKeys().scale, commonKeys().at});
+    Json properties{{"type", {{"const", kind.name}}},
+                    {"material", reference("material-name")},
+                    {"rotate", reference("node-rotate")},
+                    {"scale", reference("node-scale")},
+                    {"at", reference("at")},
+                    {"lipschitz", reference("lipschitz")}};
     addNumbers(properties, kind.numbers);
     std::vector<std::string_view> required{"type"};
     for (const NumberInfo& number : kind.numbers)
@@ -119,6 +135,7 @@ std::string schemaText() {
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "edgewise SDF scene";
     Json& definitions = schema["$defs"];
+    definitions = commonDefinitions();
     definitions["node"] = nodeSchema();
     definitions["material"] = recordSchema(materialRecord());
     for (const KindInfo& kind : kindInfos()) definitions[std::string(kind.name)] = kindSchema(kind);
