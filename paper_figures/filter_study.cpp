@@ -12,7 +12,7 @@
 #include "paper_figures/slanted_edge.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/error.h"
-#include "pipeline/load_gltf.h"
+#include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/write_image.h"
@@ -121,7 +121,7 @@ PatternView viewOf(const PatternPlace& place, const Effort& effort) {
     PatternView view;
     view.name = place.name;
     view.margin_px = effort.margin_px;
-    view.scene = loadGltf(findScene(place.name));
+    view.scene = loadScene(findScene(place.name));
     CameraOptions options;
     options.size = {place.width, place.height};
     view.camera = resolveCamera(view.scene, options, view.film);

@@ -176,7 +176,9 @@ ResolvedCamera resolveFraming(const Scene& scene, const CameraOptions& options, 
 
 ResolvedCamera resolveFromFile(const Scene& scene, const CameraOptions& options, Film& film) {
     Camera camera = options.camera.empty() ? scene.cameras.front() : cameraByName(scene, options.camera);
-    const std::string what = fmt::format("{}: camera of nodes[{}]", scene.source, camera.node);
+    const std::string what = camera.node == kNone
+                                 ? fmt::format("{}: camera", scene.source)
+                                 : fmt::format("{}: camera of nodes[{}]", scene.source, camera.node);
     if (options.fovy_degrees && !camera.perspective) throw InputError("--fovy", "the camera is orthographic");
     if (options.fovy_degrees) camera.yfov = radians(*options.fovy_degrees);
     checkLens(camera, what);

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 
 #include "data/generate/recipes.h"
 #include "pipeline/error.h"
 #include "pipeline/scene_folders.h"
+#include "sdf/nearest_name.h"
 
 namespace edgewise {
 namespace {
@@ -20,22 +19,24 @@ constexpr const char* kEngine = "engine";
 constexpr const char* kEngineFile = "2CylinderEngine-glTF-Binary/2CylinderEngine.glb";
 constexpr const char* kEngineHint = "2CylinderEngine.glb comes with Debian's package assimp-testmodels";
 
-/// The contract's SDF scenes: named here only so that asking for one gets a plain answer.
-constexpr std::array kSdfScenes = {
-    "primitives", "random-box",       "random-shape", "sparse-shape", "atrium", "jewel",
-    "city",       "path-room",        "convex",       "thin",         "blob",   "gyroid",
-    "menger-3",   "sphere-minus-box", "spheres-50",   "spheres-1000", "wires",  "slabs"};
-
 bool isFile(const fs::path& path) {
     std::error_code error;
     return fs::is_regular_file(path, error);
 }
 
+/// In the contract's order.
+std::vector<const Recipe*> allRecipes() {
+    std::vector<const Recipe*> all;
+    for (const auto* recipes : {&scenes::namedRecipes(), &scenes::sdfRecipes()})
+        for (const Recipe& recipe : *recipes) all.push_back(&recipe);
+    return all;
+}
+
 const Recipe* findRecipe(const std::string& name) {
-    const auto& recipes = scenes::namedRecipes();
+    const auto recipes = allRecipes();
     const auto found =
-        std::find_if(recipes.begin(), recipes.end(), [&](const Recipe& r) { return r.name == name; });
-    return found == recipes.end() ? nullptr : &*found;
+        std::find_if(recipes.begin(), recipes.end(), [&](const Recipe* r) { return r->name == name; });
+    return found == recipes.end() ? nullptr : *found;
 }
 
 std::vector<fs::path> cacheFiles(const Recipe& recipe, const CatalogOptions& options) {
@@ -58,6 +59,7 @@ std::optional<fs::path> existingFile(const Recipe& recipe, const CatalogOptions&
 }
 
 fs::path makeScene(const Recipe& recipe, const CatalogOptions& options) {
+    if (!recipe.bytes) throw InputError(recipe.name, "its file is in no data folder; set EDGEWISE_DATA");
     const std::string bytes = recipe.bytes();
     const std::vector<fs::path> files = cacheFiles(recipe, options);
     for (const fs::path& file : files) {
@@ -75,38 +77,16 @@ std::optional<fs::path> findEngine(const CatalogOptions& options) {
     return std::nullopt;
 }
 
-/// Levenshtein's distance, one row at a time.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
 /// "did you mean NAME?" where a third of the letters or fewer are wrong.
 std::string hint(const std::string& scene) {
     const std::string list = "`edgewise scenes` lists the names";
-    if (scene.size() > 64) return list;
-    std::string best = kEngine;
-    for (const Recipe& recipe : scenes::namedRecipes()) {
-        if (editDistance(scene, recipe.name) < editDistance(scene, best)) best = recipe.name;
-    }
-    return 3 * editDistance(scene, best) <= best.size() ? fmt::format("did you mean {}? {}", best, list)
-                                                        : list;
+    std::vector<std::string_view> names{kEngine};
+    for (const Recipe* recipe : allRecipes()) names.push_back(recipe->name);
+    const auto best = sdf::nearestName(scene, names);
+    return best ? fmt::format("did you mean {}? {}", *best, list) : list;
 }
 
 [[noreturn]] void refuse(const std::string& scene) {
-    if (std::find(kSdfScenes.begin(), kSdfScenes.end(), scene) != kSdfScenes.end()) {
-        throw InputError(scene, "an SDF scene, which this build does not have");
-    }
     std::error_code error;
     if (fs::is_directory(scene, error)) throw InputError(scene, "a folder, not a scene file");
     const std::string missing = "no such file or scene";
@@ -130,14 +110,17 @@ fs::path findScene(const std::string& scene, const CatalogOptions& options) {
 
 std::vector<SceneInfo> sceneNames(const CatalogOptions& options) {
     std::vector<SceneInfo> names;
-    for (const Recipe& recipe : scenes::namedRecipes()) {
+    const auto add = [&](const Recipe& recipe, const std::string& what) {
         const auto file = existingFile(recipe, options);
-        names.push_back({recipe.name, fmt::format("{} ({} triangles)", recipe.what, recipe.triangles),
-                         file ? file->string() : "made on demand"});
-    }
+        const char* const absent = recipe.bytes ? "made on demand" : "not found: in no data folder";
+        names.push_back({recipe.name, what, file ? file->string() : absent});
+    };
+    for (const Recipe& recipe : scenes::namedRecipes())
+        add(recipe, fmt::format("{} ({} triangles)", recipe.what, recipe.triangles));
     const auto engine = findEngine(options);
     names.push_back({kEngine, "a two-cylinder engine, a real model of many parts (121,496 triangles)",
                      engine ? engine->string() : std::string("not found: ") + kEngineHint});
+    for (const Recipe& recipe : scenes::sdfRecipes()) add(recipe, recipe.what);
     return names;
 }
 

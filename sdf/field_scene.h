@@ -89,6 +89,8 @@ struct FieldScene {
     int reflections = 2, refractions = 8;  ///< Whitted's bounces
     bool path_traced = false;              ///< made for path:N: `none` still shades it directly
     Box bounds{{0, 0, 0}, {0, 0, 0}};  ///< of the tree's solid and analytic spheres; unbounded parts left out
+    bool bound_holds =
+        true;  ///< false: values change faster than the tape says; relaxation, pruning, prepass off
     std::vector<std::string> warnings;  ///< one line each
 };
 

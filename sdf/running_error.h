@@ -64,9 +64,13 @@ inline RunningError floor(const RunningError& a) {
     return {whole, sure ? 0.0 : 1.0 + std::ceil(a.error)};
 }
 inline RunningError min(const RunningError& a, const RunningError& b) {
+    if (a.value + a.error < b.value - b.error) return a;
+    if (b.value + b.error < a.value - a.error) return b;
     return {std::min(a.value, b.value), std::max(a.error, b.error)};
 }
 inline RunningError max(const RunningError& a, const RunningError& b) {
+    if (a.value - a.error > b.value + b.error) return a;
+    if (b.value - b.error > a.value + a.error) return b;
     return {std::max(a.value, b.value), std::max(a.error, b.error)};
 }
 

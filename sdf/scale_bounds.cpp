@@ -28,7 +28,6 @@ bool isEven(const Tree& tree, std::uint32_t index, int axis) {
         case Kind::kGyroid:
         case Kind::kRotate:
         case Kind::kTwist:
-        case Kind::kRepeat:
         case Kind::kDisplace:
             return false;
         case Kind::kTranslate:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "data/generate/recipes.h"
+#include "sdf/sdf_schema.h"
 
 namespace {
 
@@ -18,12 +19,14 @@ void write(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 void writeAll(const std::filesystem::path& folder) {
-    for (const auto* recipes : {&edgewise::scenes::namedRecipes(), &edgewise::scenes::degenerateRecipes()}) {
+    for (const auto* recipes : {&edgewise::scenes::namedRecipes(), &edgewise::scenes::sdfRecipes(),
+                                &edgewise::scenes::degenerateRecipes()}) {
         for (const auto& recipe : *recipes) {
-            if (recipe.ships) write(folder / recipe.file, recipe.bytes());
+            if (recipe.ships && recipe.bytes) write(folder / recipe.file, recipe.bytes());
         }
     }
     write(folder / "MANIFEST.md", edgewise::scenes::manifest());
+    write(folder / "sdf.schema.json", edgewise::sdf::schemaText());
 }
 
 }  // namespace

@@ -12,14 +12,16 @@ struct Recipe {
     std::string name;  ///< what the user types; degenerate scenes have none and are opened as files
     std::string file;  ///< below data/, or the file's name in the cache
     std::string what;  ///< one line
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;            ///< 0: an SDF scene
     int width_px = 1024, height_px = 1024;  ///< the picture it is made for
     bool ships = true;                      ///< a file of data/; else made on demand
-    std::function<std::string()> bytes;
+    std::function<std::string()> bytes;     ///< empty: a file of data/ that was written by hand
 };
 
 /// The named scenes, in the order in which they are listed.
 const std::vector<Recipe>& namedRecipes();
+/// The SDF scenes likewise.
+const std::vector<Recipe>& sdfRecipes();
 /// Small scenes that are hard on purpose, for tests: data/degenerate/.
 const std::vector<Recipe>& degenerateRecipes();
 

@@ -54,6 +54,7 @@ class Worker {
   private:
     Json open() {
         picture_ = loadPicture(arguments_.picture, progress_);
+        takeBackground(arguments_.making, picture_->scene, options_);
         if (arguments_.warns) warnOfIgnored(picture_->scene);
         return Json::object();
     }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "pipeline/progress_bar.h"
 #include "pipeline/project.h"
 #include "pipeline/shade.h"
+#include "sdf/field_scene.h"
 
 namespace edgewise::cli {
 namespace {
@@ -59,7 +61,9 @@ Json camerasJson(const Scene& scene) {
     Json list = Json::array();
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Camera& camera = scene.cameras[i];
-        Json json{{"index", i}, {"name", camera.name}, {"node", camera.node}};
+        Json json{{"index", i},
+                  {"name", camera.name},
+                  {"node", camera.node == kNone ? Json(nullptr) : Json(camera.node)}};
         json.update(lensJson(camera));
         json["aspect"] = camera.aspect ? Json(*camera.aspect) : Json(nullptr);
         list.push_back(json);
@@ -90,7 +94,7 @@ Json rigJson() {
 Json lightJson(const Light& light) {
     const bool directional = light.type == Light::Type::kDirectional, spot = light.type == Light::Type::kSpot;
     Json json{{"name", light.name},
-              {"node", light.node},
+              {"node", light.node == kNone ? Json(nullptr) : Json(light.node)},
               {"type", directional ? "directional" : (spot ? "spot" : "point")},
               {"frame", "world"},
               {"color", asJson(light.color)},
@@ -127,8 +131,47 @@ Json planJson(const Picture& picture) {
     return list;
 }
 
+/// Kinds with how often each is there, in the order of kindInfos().
+Json kindsJson(const sdf::Tree& tree) {
+    Json kinds = Json::object();
+    for (const sdf::KindInfo& kind : sdf::kindInfos()) {
+        const auto count = std::count_if(tree.nodes.begin(), tree.nodes.end(),
+                                         [&](const sdf::Node& node) { return node.kind == kind.kind; });
+        if (count > 0) kinds[std::string(kind.name)] = count;
+    }
+    return kinds;
+}
+
+/// The last material is the default one, which the file has not.
+Json fieldCountsJson(const sdf::FieldScene& field, const sdf::Tape& tape) {
+    return {{"nodes", field.tree.nodes.size()},        {"instructions", tape.size()},
+            {"materials", field.materials.size() - 1}, {"analytic", field.analytic.size()},
+            {"lights", field.lights.size()},           {"cameras", field.cameras.size()}};
+}
+
+Json fieldJson(const Picture& picture) {
+    const Scene& scene = picture.scene;
+    const sdf::FieldScene& field = *scene.field;
+    const sdf::Tape tape = field.tree.empty() ? sdf::Tape() : sdf::lower(field.tree);
+    return {{"scene", scene.source},
+            {"counts", fieldCountsJson(field, tape)},
+            {"kinds", kindsJson(field.tree)},
+            {"field",
+             {{"form", field.glsl ? "GLSL" : "tree"},
+              {"lipschitz", field.glsl ? field.glsl->lipschitz : tape.lipschitz},
+              {"bound_holds", field.bound_holds},
+              {"path_traced", field.path_traced},
+              {"far", field.far}}},
+            {"bounds", {{"min", asJson(scene.bounds_min)}, {"max", asJson(scene.bounds_max)}}},
+            {"cameras", camerasJson(scene)},
+            {"camera", resolvedCameraJson(picture)},
+            {"lights", lightsJson(scene)},
+            {"warnings", field.warnings}};
+}
+
 Json infoJson(const Picture& picture) {
     const Scene& scene = picture.scene;
+    if (scene.field) return fieldJson(picture);
     return {{"scene", scene.source},
             {"counts", countsJson(scene)},
             {"bounds", {{"min", asJson(scene.bounds_min)}, {"max", asJson(scene.bounds_max)}}},
@@ -145,7 +188,8 @@ void printInWords(const Json& info) {
         if (value.is_array() && value.empty()) {
             fmt::print("{:<8} none\n", name);
         } else if (value.is_array()) {
-            for (const Json& entry : value) fmt::print("{:<8} {}\n", name, entry.dump());
+            for (const Json& entry : value)
+                fmt::print("{:<8} {}\n", name, entry.dump(-1, ' ', false, Json::error_handler_t::replace));
         } else if (value.is_object()) {
             for (const auto& [key, entry] : value.items())
                 fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());

@@ -13,6 +13,7 @@
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/error.h"
 #include "pipeline/plan.h"
+#include "sdf/field_scene.h"
 
 namespace edgewise::cli {
 namespace {
@@ -73,7 +74,9 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
             "sample where it lands")
         ->type_name("closest|centroid|samples:N|hit")
         ->capture_default_str();
-    command.add_option("--background", arguments.background, "linear colour [0,0,0]")->type_name("R,G,B");
+    command
+        .add_option("--background", arguments.background, "linear colour [an SDF scene's own, else 0,0,0]")
+        ->type_name("R,G,B");
     command.add_option("--threads", arguments.threads, "CPU threads [all]")->type_name("N");
     command
         .add_option("--memory", arguments.memory, "ceiling for the buffers, the image is tiled to fit [1024]")
@@ -108,6 +111,11 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
         options.seed = static_cast<std::uint64_t>(
             parseInteger("--seed", *arguments.seed, 0, std::numeric_limits<std::int64_t>::max()));
     return options;
+}
+
+void takeBackground(const MethodArguments& arguments, const Scene& scene, RenderOptions& options) {
+    if (!arguments.background && scene.field && scene.field->background)
+        options.background = *scene.field->background;
 }
 
 ThreadLimit::ThreadLimit(const RenderOptions& options) {

@@ -26,6 +26,9 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments);
 
 RenderOptions readMethodOptions(const MethodArguments& arguments);
 
+/// Without --background an SDF scene's own.
+void takeBackground(const MethodArguments& arguments, const Scene& scene, RenderOptions& options);
+
 /// While it lives, no more threads work than --threads says.
 class ThreadLimit {
   public:

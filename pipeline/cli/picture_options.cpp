@@ -12,9 +12,10 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/error.h"
-#include "pipeline/load_gltf.h"
+#include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
+#include "sdf/field_scene.h"
 
 namespace edgewise::cli {
 namespace {
@@ -45,7 +46,7 @@ glm::dvec2 readShift(const std::string& text) {
     return shift;
 }
 
-Scene loadScene(const PictureArguments& arguments, Progress& progress) {
+Scene readScene(const PictureArguments& arguments, Progress& progress) {
     LoadOptions options;
     options.scene = arguments.scene_choice.value_or("");
     if (arguments.time) options.time = parseNumber("--time", *arguments.time);
@@ -53,7 +54,7 @@ Scene loadScene(const PictureArguments& arguments, Progress& progress) {
         throw InputError("--animation", "needs --time: without it the rest pose is drawn");
     options.animation = arguments.animation.value_or("");
     options.progress = LoadProgress(progress);
-    Scene scene = loadGltf(findScene(arguments.scene), options);
+    Scene scene = loadScene(findScene(arguments.scene), options);
     scene.source = arguments.scene;
     throwIfInterrupted();
     return scene;
@@ -72,7 +73,9 @@ CameraOptions readCamera(const PictureArguments& arguments) {
 }  // namespace
 
 void addPictureOptions(CLI::App& command, PictureArguments& arguments) {
-    command.add_option("SCENE", arguments.scene, ".gltf or .glb file, or a name of `edgewise scenes`")
+    command
+        .add_option("SCENE", arguments.scene,
+                    ".gltf, .glb, .sdf.json or .map.glsl file, or a name of `edgewise scenes`")
         ->required();
     command
         .add_option("--size", arguments.size,
@@ -114,7 +117,7 @@ Picture loadPicture(const PictureArguments& arguments, Progress& progress) {
     if (arguments.crop) crop = parseCrop("--crop", *arguments.crop);
 
     Picture picture;
-    picture.scene = loadScene(arguments, progress);
+    picture.scene = readScene(arguments, progress);
     picture.camera = resolveCamera(picture.scene, camera_options, film);
     if (crop) {
         checkCrop("--crop", *crop, film.width, film.height);
@@ -127,6 +130,9 @@ Picture loadPicture(const PictureArguments& arguments, Progress& progress) {
 void warnOfIgnored(const Scene& scene) {
     for (const Ignored& ignored : scene.ignored)
         spdlog::warn("{}: {} ignored ({} times)", scene.source, ignored.what, ignored.count);
+    if (!scene.field) return;
+    for (const std::string& warning : scene.field->warnings)
+        spdlog::warn("{}: {}", scene.source, oneLine(warning));
 }
 
 }  // namespace edgewise::cli

@@ -29,7 +29,7 @@ struct Picture {
 /// Reads the flags, then the file.
 Picture loadPicture(const PictureArguments& arguments, Progress& progress);
 
-/// One warning for each thing that the scene uses and edgewise ignores.
+/// One warning for each thing that the scene uses and edgewise ignores, and for each that it breaks.
 void warnOfIgnored(const Scene& scene);
 
 }  // namespace edgewise::cli

@@ -162,6 +162,7 @@ void render(const RenderArguments& arguments) {
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     const Picture picture = loadPicture(arguments.picture, progress);
     warnOfIgnored(picture.scene);
+    takeBackground(arguments.making, picture.scene, options);
     requireMemoryFor(picture.film.crop, options.aovs);
     makeDumpFolder(options);
     const MethodResult result = makePicture(

@@ -14,7 +14,7 @@
 #include "pipeline/cli/timing_options.h"
 #include "pipeline/cli/worker_flags.h"
 #include "pipeline/error.h"
-#include "pipeline/load_gltf.h"
+#include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/sweep/content_hash.h"
@@ -247,7 +247,7 @@ class StudyReader {
         progress_.stage("check " + entry.text, 0);
         LoadOptions options;
         options.progress = [&](double) { throwIfInterrupted(); };
-        Scene scene = loadGltf(file, options);
+        Scene scene = loadScene(file, options);
         throwIfInterrupted();
         scene.source = entry.text;
         for (const CameraEntry& camera : cameras_)

@@ -93,6 +93,7 @@ void weights(const WeightsArguments& arguments) {
     const ThreadLimit threads(options);
     ProgressBar quiet(false, interruptFlag());
     const Picture picture = loadPicture(arguments.picture, quiet);
+    requireTriangles(picture.scene, "weights");
     warnOfIgnored(picture.scene);
     const glm::ivec2 pixel = readPixel(arguments.pixel, picture.film);
     const PixelReport report =

@@ -112,6 +112,9 @@ DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options
 /// cancelled.
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
 
+/// Throws InputError for an SDF scene: `what` needs triangles.
+void requireTriangles(const Scene& scene, std::string_view what);
+
 /// One line a method of this build: name, parameters, what it is.
 std::vector<std::string> describeMethods();
 
@@ -123,6 +126,7 @@ struct MethodEntry {
     Number number = Number::kAbsent;
     int smallest = 1, largest = 64;  ///< of the number
     bool own_box = false;            ///< takes no --filter
+    bool needs_triangles = false;    ///< SDF scenes are refused
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
         choices;  ///< parameter -> what it may be; device is added to all

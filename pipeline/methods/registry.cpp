@@ -125,6 +125,7 @@ const std::vector<MethodEntry>& methodRegistry() {
          .run_vulkan = kNoneVulkan},
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
+         .needs_triangles = true,
          .choices = {{"visibility", {"slab"}}},
          .run = runNsaa,
          .run_vulkan = kNsaaVulkan},
@@ -138,6 +139,7 @@ const std::vector<MethodEntry>& methodRegistry() {
          .summary = "N samples a pixel at Vulkan's standard locations, one shade a triangle and pixel",
          .number = MethodEntry::Number::kRequired,
          .own_box = true,
+         .needs_triangles = true,
          .numbers = {2, 4, 8, 16},
          .choices = {},
          .run = runMsaa,
@@ -146,6 +148,7 @@ const std::vector<MethodEntry>& methodRegistry() {
          .summary = "msaa:8 weighed by 24 more samples that see only what the 8 see",
          .number = MethodEntry::Number::kRequired,
          .own_box = true,
+         .needs_triangles = true,
          .numbers = {32},
          .choices = {},
          .run = runCsaa},
@@ -168,12 +171,14 @@ const std::vector<MethodEntry>& methodRegistry() {
          .summary = "N Owen-scrambled Sobol samples a pixel, traced with Embree, filtered like ssaa",
          .number = MethodEntry::Number::kRequired,
          .largest = 16384,
+         .needs_triangles = true,
          .choices = {},
          .run = runRt},
 #endif
 #ifdef EDGEWISE_HAS_ORACLE
         {.name = "exact",
          .summary = "the oracle: exact visibility, weights to 30 digits; for small scenes and crops",
+         .needs_triangles = true,
          .choices = {},
          .run = runExact},
 #endif
@@ -217,6 +222,7 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     if (!spec.composed.empty())
         fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
+    if (entry.needs_triangles) requireTriangles(input.scene, fmt::format("method '{}'", spec.typed));
     const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
@@ -227,6 +233,12 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     if (asked && !decision.vulkan)
         result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", spec.name, decision.why));
     return result;
+}
+
+void requireTriangles(const Scene& scene, std::string_view what) {
+    if (scene.field)
+        throw InputError(std::string(what),
+                         "needs triangles, and this build does not polygonize SDF scenes yet");
 }
 
 std::vector<std::string> describeMethods() {

@@ -1,0 +1,126 @@
+#include "sdf/map_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "sdf/scene_error.h"
+
+namespace edgewise::sdf {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr double kLargest = 1e6;
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::vector<std::string_view> wordsOf(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (std::size_t end = 0;;) {
+        const std::size_t begin = text.find_first_not_of(kBlanks, end);
+        if (begin == std::string_view::npos) return words;
+        end = std::min(text.find_first_of(kBlanks, begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+    }
+}
+
+[[noreturn]] void refuse(const HeaderLine& header, const std::string& rule) {
+    throw SceneError(fmt::format("line {}", header.line), fmt::format("{}: {}", header.key, rule));
+}
+
+double readNumber(const HeaderLine& header, std::string_view word) {
+    double value = 0.0;
+    std::string_view digits = word;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (read.ec != std::errc() || read.ptr != digits.data() + digits.size() || !(std::abs(value) <= kLargest))
+        refuse(header,
+               fmt::format("'{}' is not a number from {} to {}", word.substr(0, 40), -kLargest, kLargest));
+    return value;
+}
+
+std::string usageOf(const std::vector<HeaderWord>& words) {
+    std::string usage;
+    for (const HeaderWord& word : words) {
+        const std::string part = fmt::format("{}{}{}", word.name, word.name.empty() ? "" : " ",
+                                             word.count == 1 ? "a number" : "three numbers");
+        usage += (usage.empty() ? "" : ", ") + (word.required ? part : "[" + part + "]");
+    }
+    return usage;
+}
+
+}  // namespace
+
+std::vector<HeaderLine> headerLines(std::string_view text) {
+    std::vector<HeaderLine> lines;
+    bool in_block = false;
+    for (int number = 1; !text.empty(); ++number) {
+        const std::size_t end = text.find('\n');
+        std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+        if (!in_block && line.starts_with("/*")) in_block = true, line.remove_prefix(2);
+        if (in_block) {
+            const std::size_t close = line.find("*/");
+            if (close == std::string_view::npos) continue;
+            in_block = false, line = trimmed(line.substr(close + 2));
+        }
+        if (line.empty()) continue;
+        if (!line.starts_with("//")) break;
+        const std::string_view comment = trimmed(line.substr(2));
+        const std::size_t colon = comment.find(':');
+        if (colon == std::string_view::npos) continue;
+        lines.push_back({number, trimmed(comment.substr(0, colon)), trimmed(comment.substr(colon + 1))});
+    }
+    return lines;
+}
+
+std::string withoutComments(std::string_view text) {
+    std::string code;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view rest = text.substr(i);
+        if (!rest.starts_with("//") && !rest.starts_with("/*")) {
+            code += text[i++];
+            continue;
+        }
+        const bool block = rest[1] == '*';
+        const std::size_t close = rest.find(block ? "*/" : "\n", 2);
+        const std::size_t size = close == std::string_view::npos ? rest.size() : close + (block ? 2 : 0);
+        code += ' ';
+        code.append(static_cast<std::size_t>(std::count(rest.begin(), rest.begin() + size, '\n')), '\n');
+        i += size;
+    }
+    return code;
+}
+
+std::vector<std::vector<double>> readHeaderWords(const HeaderLine& header,
+                                                 const std::vector<HeaderWord>& words) {
+    const std::vector<std::string_view> typed = wordsOf(header.words);
+    std::vector<std::vector<double>> numbers(words.size());
+    for (std::size_t at = 0; at < typed.size();) {
+        std::size_t which = 0;
+        while (which < words.size() && !words[which].name.empty() && words[which].name != typed[at]) ++which;
+        if (which == words.size())
+            refuse(header,
+                   fmt::format("'{}' is out of place; it takes {}", typed[at].substr(0, 40), usageOf(words)));
+        if (!words[which].name.empty()) ++at;
+        if (!numbers[which].empty()) refuse(header, fmt::format("has too much; it takes {}", usageOf(words)));
+        for (int i = 0; i < words[which].count; ++i, ++at) {
+            if (at == typed.size())
+                refuse(header, fmt::format("ends too early; it takes {}", usageOf(words)));
+            numbers[which].push_back(readNumber(header, typed[at]));
+        }
+    }
+    for (std::size_t which = 0; which < words.size(); ++which)
+        if (numbers[which].empty() && words[which].required)
+            refuse(header, fmt::format("lacks something; it takes {}", usageOf(words)));
+    return numbers;
+}
+
+}  // namespace edgewise::sdf
