@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "sdf/analytic_shape.h"
 #include "sdf/evaluate.h"
