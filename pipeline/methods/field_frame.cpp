@@ -14,8 +14,8 @@ namespace edgewise {
 namespace {
 
 /// A sample's results, its hit while it is traced, and the ray.
-constexpr double kBytesPerSample =
-    sizeof(glm::dvec4) + sizeof(double) + sizeof(glm::vec3) + 4 * sizeof(std::uint32_t) + sizeof(sdf::FieldRay);
+constexpr double kBytesPerSample = sizeof(glm::dvec4) + sizeof(double) + sizeof(glm::vec3) +
+                                   4 * sizeof(std::uint32_t) + sizeof(sdf::FieldRay);
 
 PixelBox grown(const PixelBox& box, int margin) {
     return {box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
@@ -108,8 +108,8 @@ class FieldFrame {
         if (aov_.active()) aov_.pixel(x, y, samples, at(x, y), result_.image);
     }
 
-    void filterPixel(const SampleWeights& weights, const FieldWindow& window, const FieldSamples& samples, int x,
-                     int y) {
+    void filterPixel(const SampleWeights& weights, const FieldWindow& window, const FieldSamples& samples,
+                     int x, int y) {
         glm::dvec4 sum(0.0);
         Spread spread;
         const int k = window.per_side;

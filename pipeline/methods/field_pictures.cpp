@@ -72,7 +72,8 @@ void FieldPictures::finish() const {
     writeAtomically(*folder_ / "scales.csv", scales);
     std::string rows = "x,y,evaluations,iterations,residual\n";
     for (std::size_t i = 0; i < sums_.size(); ++i)
-        fmt::format_to(std::back_inserter(rows), "{},{},{},{},{}\n", crop_.x0 + static_cast<int>(i % crop_.width()),
+        fmt::format_to(std::back_inserter(rows), "{},{},{},{},{}\n",
+                       crop_.x0 + static_cast<int>(i % crop_.width()),
                        crop_.y0 + static_cast<int>(i / crop_.width()), evaluations(sums_[i]),
                        iterations(sums_[i]), residual(sums_[i]) / 100.0);
     writeAtomically(*folder_ / "field.csv", rows);
