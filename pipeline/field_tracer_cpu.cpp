@@ -85,10 +85,13 @@ class CpuFieldTracer : public FieldTracer {
     }
 
     static glm::dvec2 positionOf(const FieldWindow& window, std::size_t row, std::size_t column) {
-        const int k = window.per_side;
         if (!window.positions_px.empty()) return window.positions_px[row * window.stride() + column];
-        return {window.pixels.x0 + (static_cast<double>(column) + 0.5) / k,
-                window.pixels.y0 + (static_cast<double>(row) + 0.5) / k};
+        const std::size_t k = window.per_side;
+        const auto place = [k](int first, std::size_t i) {
+            return first + static_cast<int>(i / k) +
+                   (static_cast<double>(i % k) + 0.5) / static_cast<double>(k);
+        };
+        return {place(window.pixels.x0, column), place(window.pixels.y0, row)};
     }
 
     /// What may be asked of tiles: positions elsewhere than in their pixels are in no tile's beam.

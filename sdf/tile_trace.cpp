@@ -99,7 +99,7 @@ class LaneQueue {
 
 TileSides TileSides::forSamples(int per_side) {
     const int scale = std::min(static_cast<int>(std::bit_ceil(static_cast<unsigned>(per_side))), 64);
-    return {std::max(64 / scale, 1), std::max(8 / scale, 1)};
+    return {std::max(64 / scale, 1), std::max(8 / scale, 1), std::max(2 / scale, 1)};
 }
 
 TileCounts& TileCounts::operator+=(const TileCounts& other) {
@@ -189,12 +189,11 @@ class TileWork {
         }
     }
 
-    /// Cones get as narrow as a pixel, as long as each holds a few rays.
+    /// How narrow cones get does not depend on which rays are asked for: a crop has the whole's bits.
     void traceLeaf(const Tile& leaf, SlabTapes& tapes) {
         ++counts_.leaf_tiles;
         std::vector<Tile> tiles{leaf};
-        while (t_.settings_.prepass && !tiles.empty() && tiles.front().side > 1) {
-            if (tiles.front().rays.size() < kLeastRaysToSplit) break;
+        while (t_.settings_.prepass && !tiles.empty() && tiles.front().side > t_.sides_.cone_px) {
             std::vector<Tile> parts;
             for (const Tile& tile : tiles)
                 for (const Tile& part : quarters(tile)) parts.push_back(part);
@@ -220,8 +219,6 @@ class TileWork {
             hits_[asker.index()] = hit;
         }
     }
-
-    static constexpr std::size_t kLeastRaysToSplit = 9;
 
     const TileTracer& t_;
     double scale_;

@@ -15,6 +15,7 @@ namespace edgewise::sdf {
 /// that a part of a picture has the whole's bits.
 struct TileSides {
     int top_px = 64, leaf_px = 8;
+    int cone_px = 2;  ///< of the narrowest cones
     /// As many samples a tile, or a tile of one pixel.
     static TileSides forSamples(int per_side);
 };
