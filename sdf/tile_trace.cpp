@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "sdf/cone_march.h"
 #include "sdf/tape_lanes.h"
@@ -96,6 +97,11 @@ class LaneQueue {
 
 }  // namespace
 
+TileSides TileSides::forSamples(int per_side) {
+    const int scale = std::min(static_cast<int>(std::bit_ceil(static_cast<unsigned>(per_side))), 64);
+    return {std::max(64 / scale, 1), std::max(8 / scale, 1), std::max(2 / scale, 1)};
+}
+
 TileCounts& TileCounts::operator+=(const TileCounts& other) {
     rays += other.rays, evaluations += other.evaluations, iterations += other.iterations;
     failed += other.failed, cones += other.cones, cone_evaluations += other.cone_evaluations;
@@ -112,10 +118,10 @@ class TileWork {
         : t_(tracer), scale_(tracer.sign_ / tracer.tape_.lipschitz), hits_(hits), counts_(counts) {}
 
     void run(int x, int y, std::span<TileRay> rays) {
-        const Beam beam = beamOf(x, y, kTopTilePx);
+        const Beam beam = beamOf(x, y, t_.sides_.top_px);
         const Slabs slabs(beam, t_.grid_.t_min, t_.grid_.t_max);
         SlabTapes tapes(t_.tape_, slabs, beam, t_.settings_.prune);
-        std::vector<Tile> top{{x, y, kTopTilePx, rays, t_.grid_.t_min}};
+        std::vector<Tile> top{{x, y, t_.sides_.top_px, rays, t_.grid_.t_min}};
         march(top, tapes);
         if (!top.empty()) descend(top.front(), tapes);
     }
@@ -174,7 +180,7 @@ class TileWork {
     }
 
     void descend(const Tile& tile, SlabTapes& tapes) {
-        if (tile.side <= kLeafTilePx) return traceLeaf(tile, tapes);
+        if (tile.side <= t_.sides_.leaf_px) return traceLeaf(tile, tapes);
         std::vector<Tile> parts = quarters(tile);
         march(parts, tapes);
         for (const Tile& part : parts) {
@@ -183,12 +189,11 @@ class TileWork {
         }
     }
 
-    /// Cones get as narrow as a pixel, as long as each holds a few rays.
+    /// How narrow cones get does not depend on which rays are asked for: a crop has the whole's bits.
     void traceLeaf(const Tile& leaf, SlabTapes& tapes) {
         ++counts_.leaf_tiles;
         std::vector<Tile> tiles{leaf};
-        while (t_.settings_.prepass && !tiles.empty() && tiles.front().side > 1) {
-            if (tiles.front().rays.size() < kLeastRaysToSplit) break;
+        while (t_.settings_.prepass && !tiles.empty() && tiles.front().side > t_.sides_.cone_px) {
             std::vector<Tile> parts;
             for (const Tile& tile : tiles)
                 for (const Tile& part : quarters(tile)) parts.push_back(part);
@@ -215,16 +220,15 @@ class TileWork {
         }
     }
 
-    static constexpr std::size_t kLeastRaysToSplit = 9;
-
     const TileTracer& t_;
     double scale_;
     std::span<TraceHit> hits_;
     TileCounts& counts_;
 };
 
-TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign)
-    : tape_(tape), grid_(grid), settings_(settings), sign_(sign) {}
+TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign,
+                       TileSides sides)
+    : tape_(tape), grid_(grid), settings_(settings), sign_(sign), sides_(sides) {}
 
 void TileTracer::trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                        TileCounts& counts) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -96,6 +97,8 @@ struct MethodSpec {
         const auto found = parameters.find(key);
         return found == parameters.end() ? fallback : found->second;
     }
+    /// The same of a number, which parseMethod() has checked.
+    double numberOf(const std::string& key, double fallback) const;
 };
 
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
@@ -118,6 +121,17 @@ void requireTriangles(const Scene& scene, std::string_view what);
 /// One line a method of this build: name, parameters, what it is.
 std::vector<std::string> describeMethods();
 
+class FieldTracer;
+struct FieldSettings;
+/// What traces an SDF scene (field_tracer.h): the CPU's maker or Vulkan's.
+using FieldTracerMaker = std::unique_ptr<FieldTracer> (*)(const MethodInput&, const FieldSettings&);
+
+/// Numbers that a parameter may be, ends included.
+struct NumberRange {
+    double low = 0.0, high = 1.0;
+    bool whole = false;
+};
+
 /// What the registry holds for each method; a new method adds one entry in registry.cpp.
 struct MethodEntry {
     enum class Number { kAbsent, kRequired };
@@ -129,10 +143,13 @@ struct MethodEntry {
     bool needs_triangles = false;    ///< SDF scenes are refused
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
-        choices;  ///< parameter -> what it may be; device is added to all
+        choices;                                     ///< parameter -> what it may be; device is added to all
+    std::map<std::string, NumberRange> ranges = {};  ///< parameter -> which numbers it may be
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
     MethodResult (*run_vulkan)(const MethodSpec&,
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone
+    /// On SDF scenes; nullptr: it needs triangles.
+    MethodResult (*run_field)(const MethodSpec&, const MethodInput&, FieldTracerMaker) = nullptr;
 };
 
 }  // namespace edgewise

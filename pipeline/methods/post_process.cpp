@@ -38,14 +38,19 @@ PostProcess makePostProcess(const MethodSpec& spec) {
     throw InputError(fmt::format("method '{}'", spec.typed), "filters no picture, only fxaa and smaa do");
 }
 
-MethodResult runOnNone(const PostProcess& process, const MethodSpec& spec, const MethodInput& in) {
+MethodResult runOnPicture(const PostProcess& process, const MethodInput& in,
+                          const std::function<MethodResult(const MethodInput&)>& make) {
     Film film = in.film;
     film.crop = grown(film.crop, process.reach_px, film);
-    MethodResult result = runNone(spec, {in.scene, in.camera, film, in.filter, in.options, in.progress});
+    MethodResult result = make({in.scene, in.camera, film, in.filter, in.options, in.progress});
     process.apply(result.image, in.progress, result.stages);
     result.image = cropped(result.image, in.film.crop);
     result.setup_seconds += process.setup_seconds;
     return result;
+}
+
+MethodResult runOnNone(const PostProcess& process, const MethodSpec& spec, const MethodInput& in) {
+    return runOnPicture(process, in, [&](const MethodInput& whole) { return runNone(spec, whole); });
 }
 
 }  // namespace edgewise

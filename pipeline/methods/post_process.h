@@ -25,5 +25,8 @@ PostProcess makePostProcess(const MethodSpec& spec);
 
 /// `none` and the filter. A crop has the bits of the whole: `none` makes what the filter reaches beyond it.
 MethodResult runOnNone(const PostProcess& process, const MethodSpec& spec, const MethodInput& input);
+/// The same with whatever makes the picture.
+MethodResult runOnPicture(const PostProcess& process, const MethodInput& input,
+                          const std::function<MethodResult(const MethodInput&)>& make);
 
 }  // namespace edgewise

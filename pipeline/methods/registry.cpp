@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "pipeline/device_error.h"
 
@@ -20,7 +21,7 @@ constexpr decltype(MethodEntry::run) kMsaaVulkan = nullptr, kNoneVulkan = nullpt
                                      kSsaaVulkan = nullptr;
 #endif
 
-const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
+const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"}, kSwitch{"on", "off"};
 
 const MethodEntry* findMethod(std::string_view name) {
     const auto& registry = methodRegistry();
@@ -73,7 +74,36 @@ void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spe
     spec.number = value;
 }
 
+std::optional<double> numberIn(std::string_view text) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::string rangeWords(const NumberRange& range) {
+    return fmt::format("{}..{}", range.low, range.high);
+}
+
+bool takeNumberParameter(std::string_view key, std::string_view text, const MethodEntry& entry,
+                         const MethodSpec& spec) {
+    const auto known = entry.ranges.find(std::string(key));
+    if (known == entry.ranges.end()) return false;
+    const NumberRange& range = known->second;
+    const std::optional<double> value = numberIn(text);
+    if (!value || !(*value >= range.low && *value <= range.high) ||
+        (range.whole && *value != std::floor(*value)))
+        fail(spec.typed, fmt::format("{} is a{} number in {}, not '{}'", key, range.whole ? " whole" : "",
+                                     rangeWords(range), text));
+    return true;
+}
+
 void takeParameter(std::string_view key, std::string_view value, const MethodEntry& entry, MethodSpec& spec) {
+    if (takeNumberParameter(key, value, entry, spec)) {
+        if (!spec.parameters.emplace(key, value).second)
+            fail(spec.typed, fmt::format("{} is given twice", key));
+        return;
+    }
     const auto known = entry.choices.find(std::string(key));
     if (key != "device" && known == entry.choices.end())
         fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
@@ -109,6 +139,8 @@ std::string describe(const MethodEntry& entry) {
                                                    : fmt::format("{}", fmt::join(entry.numbers, "|")));
     for (const auto& [key, choices] : entry.choices)
         parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
+    for (const auto& [key, range] : entry.ranges)
+        parameters.push_back(fmt::format("{}={}", key, rangeWords(range)));
     parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
     return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
 }
@@ -122,7 +154,8 @@ const std::vector<MethodEntry>& methodRegistry() {
          .own_box = true,
          .choices = {},
          .run = runNone,
-         .run_vulkan = kNoneVulkan},
+         .run_vulkan = kNoneVulkan,
+         .run_field = traceNone},
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .needs_triangles = true,
@@ -134,7 +167,8 @@ const std::vector<MethodEntry>& methodRegistry() {
          .number = MethodEntry::Number::kRequired,
          .choices = {},
          .run = runSsaa,
-         .run_vulkan = kSsaaVulkan},
+         .run_vulkan = kSsaaVulkan,
+         .run_field = traceSsaa},
         {.name = "msaa",
          .summary = "N samples a pixel at Vulkan's standard locations, one shade a triangle and pixel",
          .number = MethodEntry::Number::kRequired,
@@ -158,14 +192,30 @@ const std::vector<MethodEntry>& methodRegistry() {
          .choices = {{"preset",
                       {"10", "11", "12", "13", "14", "15", "20", "21", "22", "23", "24", "25", "26", "27",
                        "28", "29", "39"}}},
-         .run = runFxaa},
+         .run = runFxaa,
+         .run_field = traceFxaa},
         {.name = "smaa",
          .summary = "SMAA 1x on the picture of none",
          .own_box = true,
          .choices = {{"preset", {"low", "medium", "high", "ultra"}},
                      {"edges", {"luma", "color"}},
                      {"blend", {"linear", "gamma"}}},
-         .run = runSmaa},
+         .run = runSmaa,
+         .run_field = traceSmaa},
+        {.name = "sphere",
+         .summary = "SDF scenes: sphere tracing, one sample at the pixel's centre",
+         .own_box = true,
+         .choices = {{"relax", {"none", "keinert", "balint", "auto"}},
+                     {"candidate", {"last", "screen"}},
+                     {"prepass", kSwitch},
+                     {"prune", kSwitch},
+                     {"convex", kSwitch},
+                     {"level-set", kSwitch}},
+         .ranges = {{"omega", {1, 2}},
+                    {"discontinuity", {0, 64, true}},
+                    {"threshold", {1e-6, 1}},
+                    {"steps", {1, 60000, true}}},
+         .run_field = traceSphere},
 #ifdef EDGEWISE_HAS_EMBREE
         {.name = "rt",
          .summary = "N Owen-scrambled Sobol samples a pixel, traced with Embree, filtered like ssaa",
@@ -184,6 +234,11 @@ const std::vector<MethodEntry>& methodRegistry() {
 #endif
     };
     return registry;
+}
+
+double MethodSpec::numberOf(const std::string& key, double fallback) const {
+    const auto found = parameters.find(key);
+    return found == parameters.end() ? fallback : numberIn(found->second).value_or(fallback);
 }
 
 MethodSpec parseMethod(std::string_view typed) {
@@ -223,6 +278,8 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     if (!spec.composed.empty())
         fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
     if (entry.needs_triangles) requireTriangles(input.scene, fmt::format("method '{}'", spec.typed));
+    if (input.scene.field) return runOnField(entry, spec, input);
+    if (!entry.run) fail(spec.typed, "traces SDF scenes, and this one is of triangles");
     const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;

@@ -26,4 +26,13 @@ MethodResult runRt(const MethodSpec& spec, const MethodInput& input);  ///< with
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 
+// On SDF scenes.
+MethodResult traceNone(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceSphere(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+/// The same with the device that suits the method and the scene.
+MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input);
+
 }  // namespace edgewise

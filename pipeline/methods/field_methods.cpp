@@ -1,0 +1,114 @@
+// The methods that trace SDF scenes, and on which device.
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include "pipeline/device_error.h"
+#include "pipeline/error.h"
+#include "pipeline/methods/field_frame.h"
+#include "pipeline/methods/post_process.h"
+#include "pipeline/methods/registry.h"
+#include "sdf/field_scene.h"
+
+namespace edgewise {
+namespace {
+
+#ifdef EDGEWISE_HAS_VULKAN_FIELD
+constexpr FieldTracerMaker kVulkanTracer = makeVulkanFieldTracer;
+#else
+constexpr FieldTracerMaker kVulkanTracer = nullptr;
+#endif
+
+sdf::Relaxation relaxationOf(const std::string& name) {
+    if (name == "none") return sdf::Relaxation::kNone;
+    if (name == "keinert") return sdf::Relaxation::kKeinert;
+    return name == "balint" ? sdf::Relaxation::kBalint : sdf::Relaxation::kAuto;
+}
+
+FieldSettings settingsOf(const MethodSpec& spec, const RenderOptions& options) {
+    FieldSettings settings;
+    settings.seed = options.seed;
+    sdf::TraceSettings& t = settings.trace;
+    const auto isOn = [&](const char* key, bool fallback) {
+        return spec.parameter(key, fallback ? "on" : "off") == "on";
+    };
+    t.relaxation = relaxationOf(spec.parameter("relax", "auto"));
+    t.omega = spec.numberOf("omega", t.omega);
+    t.screen_candidate = spec.parameter("candidate", "screen") == "screen";
+    t.discontinuity_steps = static_cast<int>(spec.numberOf("discontinuity", t.discontinuity_steps));
+    t.threshold = spec.numberOf("threshold", t.threshold);
+    t.most_steps = static_cast<int>(spec.numberOf("steps", t.most_steps));
+    t.prepass = isOn("prepass", t.prepass), t.prune = isOn("prune", t.prune);
+    t.convex = isOn("convex", t.convex), t.level_set = isOn("level-set", t.level_set);
+    return settings;
+}
+
+DeviceChoice choiceOf(const MethodSpec& spec, const MethodInput& in) {
+    const auto own = spec.parameters.find("device");
+    const DeviceChoice choice = own == spec.parameters.end() ? in.options.device : deviceChoice(own->second);
+    const bool glsl = in.scene.field->glsl.has_value();
+    return glsl && choice == DeviceChoice::kAuto ? DeviceChoice::kVulkan : choice;
+}
+
+MethodResult onVulkan(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& in, bool asked) {
+    std::string why;
+    try {
+        return entry.run_field(spec, in, kVulkanTracer);
+    } catch (const DeviceError& error) {
+        if (asked) throw;
+        why = error.what();
+    }
+    MethodResult result = entry.run_field(spec, in, makeCpuFieldTracer);
+    result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", entry.name, why));
+    return result;
+}
+
+MethodResult filteredPicture(const PostProcess& process, const MethodSpec& spec, const MethodInput& in,
+                             FieldTracerMaker make) {
+    return runOnPicture(process, in, [&](const MethodInput& whole) { return traceNone(spec, whole, make); });
+}
+
+}  // namespace
+
+MethodResult traceNone(const MethodSpec&, const MethodInput& in, FieldTracerMaker make) {
+    FieldSettings settings;
+    settings.seed = in.options.seed;
+    return tracePixels(in, settings, make);
+}
+
+MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+    return tracePixels(in, settingsOf(spec, in.options), make);
+}
+
+MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+    FieldSettings settings;
+    settings.seed = in.options.seed;
+    return traceFiltered(in, settings, *spec.number, make);
+}
+
+MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+    return filteredPicture(makeFxaa(spec), spec, in, make);
+}
+
+MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+    return filteredPicture(makeSmaa(spec), spec, in, make);
+}
+
+MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& in) {
+    if (!entry.run_field)
+        throw InputError(fmt::format("method '{}'", spec.typed),
+                         fmt::format("needs triangles, and {} is an SDF scene", in.scene.source));
+    const DeviceChoice choice = choiceOf(spec, in);
+    const DeviceDecision decision = decideDevice(choice, kVulkanTracer != nullptr);
+    const bool asked = choice == DeviceChoice::kVulkan;
+    tbb::task_arena arena(in.options.threads > 0 ? in.options.threads : tbb::task_arena::automatic);
+    MethodResult result;
+    arena.execute([&] {
+        result = decision.vulkan ? onVulkan(entry, spec, in, asked)
+                                 : entry.run_field(spec, in, makeCpuFieldTracer);
+    });
+    if (asked && !decision.vulkan)
+        result.notes.push_back(fmt::format("'{}' ran on the CPU: {}", spec.name, decision.why));
+    return result;
+}
+
+}  // namespace edgewise
