@@ -10,7 +10,7 @@ namespace {
 /// Lengths of slabs in widths of their beams.
 constexpr double kLengthInWidths = 1.0;
 /// A tape shorter than this is not worth shortening, nor is one for fewer points.
-constexpr std::size_t kShortTape = 16, kFewPoints = 4;
+constexpr std::size_t kShortTape = 16, kFewPoints = 16;
 
 }  // namespace
 
