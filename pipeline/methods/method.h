@@ -44,6 +44,7 @@ struct RenderOptions {
     std::size_t memory_mib = 1024;
     ShadingChoice shading;
     std::uint64_t seed = 0;
+    int frames = 1;  ///< of temporal methods: the picture is their mean
     std::set<std::string> no_skip;
     std::set<Aov> aovs;
     std::optional<std::filesystem::path> dump_dir;
@@ -115,6 +116,15 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
 /// One line a method of this build: name, parameters, what it is.
 std::vector<std::string> describeMethods();
 
+/// A parameter that is a number.
+struct RealRange {
+    double low, high;
+    double fallback;
+};
+
+/// The number given for it, or its fallback.
+double realParameter(const MethodSpec& spec, const std::string& key);
+
 /// What the registry holds for each method; a new method adds one entry in registry.cpp.
 struct MethodEntry {
     enum class Number { kAbsent, kRequired };
@@ -126,6 +136,7 @@ struct MethodEntry {
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
         choices;  ///< parameter -> what it may be; device is added to all
+    std::map<std::string, RealRange> reals = {};  ///< parameter -> from where to where
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
     MethodResult (*run_vulkan)(const MethodSpec&,
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone

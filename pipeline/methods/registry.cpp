@@ -73,8 +73,27 @@ void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spe
     spec.number = value;
 }
 
+std::optional<double> realOf(std::string_view text) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return {};
+    return value;
+}
+
+void checkReal(std::string_view key, std::string_view value, const RealRange& range, const MethodSpec& spec) {
+    const std::optional<double> number = realOf(value);
+    if (!number || !(*number >= range.low && *number <= range.high))
+        fail(spec.typed, fmt::format("{} is a number from {} to {}, not '{}'", key, range.low, range.high, value));
+}
+
 void takeParameter(std::string_view key, std::string_view value, const MethodEntry& entry, MethodSpec& spec) {
     const auto known = entry.choices.find(std::string(key));
+    const auto real = entry.reals.find(std::string(key));
+    if (real != entry.reals.end()) {
+        checkReal(key, value, real->second, spec);
+        if (!spec.parameters.emplace(key, value).second) fail(spec.typed, fmt::format("{} is given twice", key));
+        return;
+    }
     if (key != "device" && known == entry.choices.end())
         fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
     const std::vector<std::string>& choices = key == "device" ? kDevices : known->second;
@@ -109,6 +128,8 @@ std::string describe(const MethodEntry& entry) {
                                                    : fmt::format("{}", fmt::join(entry.numbers, "|")));
     for (const auto& [key, choices] : entry.choices)
         parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
+    for (const auto& [key, range] : entry.reals)
+        parameters.push_back(fmt::format("{}={}..{}", key, range.low, range.high));
     parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
     return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
 }
@@ -163,6 +184,21 @@ const std::vector<MethodEntry>& methodRegistry() {
                      {"edges", {"luma", "color"}},
                      {"blend", {"linear", "gamma"}}},
          .run = runSmaa},
+        {.name = "lottes",
+         .summary = "SDF: one jittered ray a pixel and frame, coverage, 11-ray reconstruction, grain",
+         .own_box = true,
+         .choices = {{"weights", {"gaussian", "disk"}},
+                     {"spectrum", {"blue", "white"}},
+                     {"coverage", {"on", "off"}}},
+         .reals = {{"distance", {0.05, 4.0, 0.75}}, {"scale", {0.01, 100.0, 2.0}}, {"grain", {0.0, 1.0, 0.01}}},
+         .run = runLottes},
+        {.name = "path",
+         .summary = "SDF: path traced, N samples a pixel",
+         .number = MethodEntry::Number::kRequired,
+         .largest = 65536,
+         .own_box = true,
+         .choices = {},
+         .run = runPath},
 #ifdef EDGEWISE_HAS_EMBREE
         {.name = "rt",
          .summary = "N Owen-scrambled Sobol samples a pixel, traced with Embree, filtered like ssaa",
@@ -187,6 +223,12 @@ MethodSpec parseMethod(std::string_view typed) {
     spec.typed = typed;
     for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
     return spec;
+}
+
+double realParameter(const MethodSpec& spec, const std::string& key) {
+    const auto given = spec.parameters.find(key);
+    if (given != spec.parameters.end()) return realOf(given->second).value();
+    return requireMethod(spec.typed, spec.name).reals.at(key).fallback;
 }
 
 bool takesFilter(const MethodSpec& spec) {

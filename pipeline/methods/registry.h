@@ -15,12 +15,14 @@ MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const
 MethodResult runCsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runExact(const MethodSpec& spec, const MethodInput& input);  ///< with the oracle
 MethodResult runFxaa(const MethodSpec& spec, const MethodInput& input);
+MethodResult runLottes(const MethodSpec& spec, const MethodInput& input);
 MethodResult runMsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runMsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runNone(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNoneVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runNsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
+MethodResult runPath(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSmaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runRt(const MethodSpec& spec, const MethodInput& input);  ///< with Embree
 MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
