@@ -189,8 +189,11 @@ Box levelBox(const Tree& tree, std::uint32_t index, double level) {
         }
         case Kind::kMirror:
             return mirrored(child(level), n);
-        case Kind::kRepeat:
-            return grown(repeated(child(0.0), n), level, level, level);
+        case Kind::kRepeat: {
+            const Repetition cells = repetitionOf(tree, node);
+            // Along a wall values are no more than its distance and the margin, however far away the child.
+            return cells.walls && level > cells.least_margin ? kEverything : repeated(child(level), n);
+        }
         case Kind::kElongate:
             return grown(child(level), n[0] / 2, n[1] / 2, n[2] / 2);
         case Kind::kTwist: {

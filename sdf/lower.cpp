@@ -19,40 +19,6 @@ struct Place {
     std::uint32_t material = kNoMaterial;
 };
 
-/// Whether the node's solid and values are their own mirror images across the origin along an axis.
-bool isEven(const Tree& tree, std::uint32_t index, int axis) {
-    const Node& node = tree.nodes[index];
-    switch (node.kind) {
-        case Kind::kCapsule:
-            return node.numbers[axis] == -node.numbers[3 + axis] && [&] {
-                for (int i = 0; i < 3; ++i)
-                    if (i != axis && node.numbers[i] != node.numbers[3 + i] && node.numbers[axis] != 0.0)
-                        return false;
-                return true;
-            }();
-        case Kind::kPlane:
-            return node.numbers[axis] == 0.0;
-        case Kind::kCone:
-            return axis != 1 || node.numbers[0] == node.numbers[1];
-        case Kind::kGyroid:
-        case Kind::kRotate:
-        case Kind::kTwist:
-        case Kind::kRepeat:
-        case Kind::kDisplace:
-            return false;
-        case Kind::kTranslate:
-            if (node.numbers[axis] != 0.0) return false;
-            break;
-        case Kind::kMirror:
-            if (node.numbers[axis] != 0.0) return true;
-            break;
-        default:
-            break;
-    }
-    return std::all_of(node.children.begin(), node.children.end(),
-                       [&](std::uint32_t child) { return isEven(tree, child, axis); });
-}
-
 class Lowering {
   public:
     explicit Lowering(const Tree& tree) : tree_(tree) {}
@@ -199,30 +165,19 @@ class Lowering {
     /// Of the nearest cell alone. That is the nearest copy where the child is even; elsewhere the next cell's
     /// copy may be nearer, but no nearer than the wall and the copy's distance from it.
     double repeat(const Node& node, const Place& at) {
-        Numbers spacing(3), count(3), margin(3);
-        bool even = true;
-        const Box box = levelBox(tree_, node.children[0]);
-        for (int i = 0; i < 3; ++i) {
-            const bool repeats = node.numbers[i] > 0.0 && node.numbers[3 + i] > 0.0;
-            spacing[i] = repeats ? node.numbers[i] : 1.0, count[i] = repeats ? node.numbers[3 + i] : 0.0;
-            if (!repeats) continue;
-            margin[i] = 0.5 * spacing[i] - std::max(std::abs(box.low[i]), std::abs(box.high[i]));
-            if (!(margin[i] >= 0.0) && !box.empty())
-                throw SceneError(node.path, "repeats a child that reaches beyond half the spacing");
-            even = even && isEven(tree_, node.children[0], i);
-        }
-        Numbers cells = spacing;
-        cells.insert(cells.end(), count.begin(), count.end());
-        double lipschitz = child(node, move(Code::repeatBy, at, cells));
-        if (even || box.empty()) return lipschitz;
-        lipschitz = std::max(lipschitz, boxedChild(node, at, cells, box));
-        cells.insert(cells.end(), margin.begin(), margin.end());
-        return value(Code::withinWalls, at, cells, std::max(lipschitz, at.slope));
+        const Repetition cells = repetitionOf(tree_, node);
+        Numbers numbers(cells.spacing.begin(), cells.spacing.end());
+        numbers.insert(numbers.end(), cells.count.begin(), cells.count.end());
+        double lipschitz = child(node, move(Code::repeatBy, at, numbers));
+        if (!cells.walls) return lipschitz;
+        lipschitz = std::max(lipschitz, raiseToBox(at, cells.box));
+        numbers.insert(numbers.end(), cells.margin.begin(), cells.margin.end());
+        return value(Code::withinWalls, at, numbers, std::max(lipschitz, at.slope));
     }
 
     /// A child that is a bound may be less than its distance from a wall, and then jump there: it is raised
     /// to the distance from its box, which does not.
-    double boxedChild(const Node& node, const Place& at, const Numbers&, const Box& box) {
+    double raiseToBox(const Place& at, const Box& box) {
         Place second = at;
         ++second.value, ++second.position;
         requireSlot(second.value);
@@ -233,7 +188,6 @@ class Lowering {
             middle[i] = cut ? 0.5 * (box.low[i] + box.high[i]) : 0.0;
             half[i] = cut ? 0.5 * (box.high[i] - box.low[i]) : 1e9;
         }
-        static_cast<void>(node);
         shape(Code::boxAt, move(Code::translateBy, second, middle), half);
         return pair(Code::intersect, at, {}, at.slope);
     }

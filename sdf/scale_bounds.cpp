@@ -10,6 +10,40 @@ namespace {
 
 constexpr double kRadians = 0.017453292519943295769;
 
+/// Whether the node's solid and values are their own mirror images across the origin along an axis.
+bool isEven(const Tree& tree, std::uint32_t index, int axis) {
+    const Node& node = tree.nodes[index];
+    switch (node.kind) {
+        case Kind::kCapsule:
+            return node.numbers[axis] == -node.numbers[3 + axis] && [&] {
+                for (int i = 0; i < 3; ++i)
+                    if (i != axis && node.numbers[i] != node.numbers[3 + i] && node.numbers[axis] != 0.0)
+                        return false;
+                return true;
+            }();
+        case Kind::kPlane:
+            return node.numbers[axis] == 0.0;
+        case Kind::kCone:
+            return axis != 1 || node.numbers[0] == node.numbers[1];
+        case Kind::kGyroid:
+        case Kind::kRotate:
+        case Kind::kTwist:
+        case Kind::kRepeat:
+        case Kind::kDisplace:
+            return false;
+        case Kind::kTranslate:
+            if (node.numbers[axis] != 0.0) return false;
+            break;
+        case Kind::kMirror:
+            if (node.numbers[axis] != 0.0) return true;
+            break;
+        default:
+            break;
+    }
+    return std::all_of(node.children.begin(), node.children.end(),
+                       [&](std::uint32_t child) { return isEven(tree, child, axis); });
+}
+
 }  // namespace
 
 RotationRows rotationRows(const std::vector<double>& n) {
@@ -38,6 +72,24 @@ double twistRadius(const Tree& tree, const Node& twist) {
 
 double displacementBound(const std::vector<double>& n) {
     return 1.0 + std::abs(n[0]) * std::max({std::abs(n[1]), std::abs(n[2]), std::abs(n[3])});
+}
+
+Repetition repetitionOf(const Tree& tree, const Node& node) {
+    Repetition cells;
+    cells.box = levelBox(tree, node.children[0]);
+    for (int i = 0; i < 3; ++i) {
+        const bool repeats = node.numbers[i] > 0.0 && node.numbers[3 + i] > 0.0;
+        cells.spacing[i] = repeats ? node.numbers[i] : 1.0,
+        cells.count[i] = repeats ? node.numbers[3 + i] : 0.0;
+        if (!repeats || cells.box.empty()) continue;
+        cells.margin[i] =
+            0.5 * cells.spacing[i] - std::max(std::abs(cells.box.low[i]), std::abs(cells.box.high[i]));
+        if (!(cells.margin[i] >= 0.0))
+            throw SceneError(node.path, "repeats a child that reaches beyond half the spacing");
+        cells.walls = cells.walls || !isEven(tree, node.children[0], i);
+        cells.least_margin = std::min(cells.least_margin, cells.margin[i]);
+    }
+    return cells;
 }
 
 }  // namespace edgewise::sdf

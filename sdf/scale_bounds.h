@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "sdf/tree.h"
 
@@ -22,5 +23,16 @@ double twistRadius(const Tree& tree, const Node& twist);
 /// 1 + |amplitude| * the largest frequency: by what a displacement's values are divided, for a child of
 /// bound 1.
 double displacementBound(const std::vector<double>& numbers);
+
+/// A repetition's cells. Axes without copies have spacing 1 and count 0.
+struct Repetition {
+    std::array<double, 3> spacing{1.0, 1.0, 1.0}, count{},
+        margin{};  ///< margin: of the child's box from the walls
+    double least_margin = std::numeric_limits<double>::infinity();
+    Box box{};           ///< of the child
+    bool walls = false;  ///< the child is not even: the next cell's copy may be the nearer one
+};
+/// Throws SceneError for a child that reaches beyond its cell.
+Repetition repetitionOf(const Tree& tree, const Node& repeat);
 
 }  // namespace edgewise::sdf

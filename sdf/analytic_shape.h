@@ -1,0 +1,22 @@
+// Rays against the shapes that are met in closed form.
+#pragma once
+
+#include <utility>
+
+#include "sdf/field_scene.h"
+#include "sdf/sphere_trace.h"
+
+namespace edgewise::sdf {
+
+/// Where a line enters and leaves a ball; infinite and the wrong way round where it misses it.
+std::pair<double, double> meetSphere(const glm::dvec3& origin_world, const glm::dvec3& direction_world,
+                                     const glm::dvec3& centre_world, double radius);
+
+struct AnalyticMeeting {
+    double t;                 ///< infinite: none between the ray's t_min and t_max
+    glm::dvec3 normal_world;  ///< unit; of spheres outward, of planes their own
+    bool inside;              ///< the ray comes from within a sphere
+};
+AnalyticMeeting meet(const AnalyticShape& shape, const FieldRay& ray);
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,36 @@
+#include <cstring>
+
+#include "analytic/instruction_set.h"
+#include "sdf/tape_lanes.h"
+
+namespace edgewise::sdf {
+
+#define EDGEWISE_DECLARE_VALUES(isa)                                                                    \
+    namespace isa {                                                                                     \
+    void laneValues(const Instruction*, const Instruction*, const double*, const LanePoints&, double*); \
+    }
+EDGEWISE_DECLARE_VALUES(scalar)
+EDGEWISE_DECLARE_VALUES(sse2)
+#if defined(EDGEWISE_HAS_AVX)
+EDGEWISE_DECLARE_VALUES(avx2)
+EDGEWISE_DECLARE_VALUES(avx512)
+#endif
+
+LaneValuesFunction laneValuesFor(const char* instruction_set) {
+    if (!machineRuns(instruction_set)) return nullptr;
+    const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
+    if (is("scalar")) return scalar::laneValues;
+    if (is("sse2")) return sse2::laneValues;
+#if defined(EDGEWISE_HAS_AVX)
+    if (is("avx2")) return avx2::laneValues;
+    if (is("avx512")) return avx512::laneValues;
+#endif
+    return nullptr;
+}
+
+void laneValues(const Tape& tape, const LanePoints& p, double (&values)[kPointLanes]) {
+    static const LaneValuesFunction best = bestForm(laneValuesFor);
+    best(tape.instructions.data(), tape.instructions.data() + tape.size(), tape.numbers.data(), p, values);
+}
+
+}  // namespace edgewise::sdf

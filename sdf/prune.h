@@ -1,0 +1,23 @@
+// Shorter tapes for parts of space: what cannot win a union, an intersection or a difference there is left
+// out.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "sdf/tape.h"
+
+namespace edgewise::sdf {
+
+/// The arithmetic that will run the shorter tape: half a unit of its last place.
+inline constexpr double kDoubleRounding = 0x1p-53, kSingleRounding = 0x1p-24;
+
+/// A tape with the same value, to the last bit, at every point within `radius` of the centre: after Barbier
+/// et al. 2025, "Lipschitz pruning". A value v at the centre is within v +- lipschitz * radius in the ball;
+/// where two sides of a pair are apart by more than that, by the pair's smoothness and by what rounding may
+/// move them, one of them is the result. Steps stay: the shorter tape has the whole one's Lipschitz bound. A
+/// tape that is empty of pairs is returned as it is. Where bounds do not hold (check_lipschitz), neither does
+/// this.
+Tape pruneTape(const Tape& tape, const glm::dvec3& centre_world, double radius,
+               double rounding = kDoubleRounding);
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,3 @@
+#define EDGEWISE_LANES 4
+#define EDGEWISE_ISA avx2
+#include "sdf/tape_lanes.inl"

@@ -1,0 +1,3 @@
+#define EDGEWISE_LANES 1
+#define EDGEWISE_ISA scalar
+#include "sdf/tape_lanes.inl"

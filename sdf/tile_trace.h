@@ -1,0 +1,52 @@
+// The rays of a tile of pixels through the field: cones first, then the rays eight at a time, on tapes that
+// are shortened for where they are.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sdf/ray_grid.h"
+#include "sdf/slab_tapes.h"
+#include "sdf/sphere_trace.h"
+
+namespace edgewise::sdf {
+
+/// Tiles lie on the grid of multiples of their sides, in absolute pixels, so that a part of a picture has
+/// the whole's bits.
+inline constexpr int kTopTilePx = 64, kLeafTilePx = 8;
+
+struct TileRay {
+    FieldRay ray;
+    glm::dvec2 p_px{0.0};     ///< within its tile
+    std::uint32_t index = 0;  ///< into the hits
+};
+
+struct TileCounts {
+    std::uint64_t rays = 0, evaluations = 0, iterations = 0, failed = 0;
+    std::uint64_t cones = 0, cone_evaluations = 0;
+    std::uint64_t instructions = 0;  ///< for evaluations, as if a point at a time
+    std::uint64_t passes = 0;        ///< over tapes: of up to eight points
+    std::uint64_t leaf_tiles = 0, empty_tiles = 0;
+    PruneCounts prune;
+    TileCounts& operator+=(const TileCounts& other);
+};
+
+class TileTracer {
+  public:
+    /// Refers to its arguments. `sign`: -1 where rays start within the solid.
+    TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign);
+
+    /// Traces rays through the top tile whose corner is at (x, y): its own sides are multiples of
+    /// kTopTilePx. Sorts the rays.
+    void trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
+               TileCounts& counts) const;
+
+  private:
+    friend class TileWork;
+    const Tape& tape_;
+    const RayGrid& grid_;
+    const TraceSettings& settings_;
+    double sign_;
+};
+
+}  // namespace edgewise::sdf
