@@ -7,6 +7,7 @@
 
 #include "pipeline/error.h"
 #include "pipeline/lighting.h"
+#include "sdf/scene_error.h"
 
 namespace edgewise {
 namespace {
@@ -42,6 +43,15 @@ const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene
     if (scene.field->glsl)
         throw InputError(who, fmt::format("runs on the CPU, and '{}' is GLSL, which Vulkan alone evaluates", scene.source));
     return *scene.field;
+}
+
+sdf::Tape loweredTree(const sdf::FieldScene& scene) {
+    if (scene.tree.empty()) return {};
+    try {
+        return sdf::lower(scene.tree);
+    } catch (const sdf::SceneError& error) {
+        throw InputError(scene.source + ": " + error.element, error.rule);
+    }
 }
 
 void countRays(const sdf::RayCounts& rays, std::map<std::string, std::uint64_t>& counts) {

@@ -13,6 +13,9 @@ sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSetting
 /// The scene's field. Throws InputError, for the method of that name, for scenes of triangles and of GLSL.
 const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene);
 
+/// The scene's tree as a tape; empty without one. Throws InputError for a tree that cannot be lowered.
+sdf::Tape loweredTree(const sdf::FieldScene& scene);
+
 /// Adds to a result's counts.
 void countRays(const sdf::RayCounts& rays, std::map<std::string, std::uint64_t>& counts);
 

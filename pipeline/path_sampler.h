@@ -9,7 +9,7 @@
 namespace edgewise {
 
 /// Every pair of coordinates is the (0, 2)-sequence of pipeline/sobol.h in an order and under a scrambling of its own
-/// (both nested uniform, so that any 2^k samples from the first on are a net in each pair), by pixel and seed alone:
+/// (both nested uniform, so that the first 2^k samples take an aligned block of the sequence and are a net in each pair), by pixel and seed alone:
 /// threads and crops do not show.
 class PixelPathSampler : public sdf::PathSampler {
   public:

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "sdf/classic_tracer.h"
 #include "sdf/evaluate.h"
 #include "sdf/shading_text.h"
 
@@ -45,11 +44,17 @@ class SceneDistance {
         }
         return sample;
     }
-    SurfaceHit hitAt(const Sample& sample) const {
-        SurfaceHit hit = sample.shape == SurfaceHit::kField
-                             ? fieldHit(scene_, tape_, ray_, sample.t, sample.value, sign_)
-                             : analyticHit(scene_.analytic, sample.shape, ray_, sample.t);
-        if (!hit.ofField()) hit.value = sample.distance;
+    SurfaceHit hitAt(const Sample& sample, const SceneTracer& surfaces) const {
+        if (sample.shape == SurfaceHit::kField)
+            return surfaces.fieldHit(ray_, {TraceEnd::kSurface, sample.t, sample.value}, sign_);
+        const AnalyticShape& shape = scene_.analytic[sample.shape];
+        const bool sphere = shape.type == AnalyticShape::Type::kSphere, behind = sides_[sample.shape] < 0.0;
+        SurfaceHit hit;
+        hit.hit = true, hit.shape = sample.shape, hit.t = sample.t, hit.value = sample.distance;
+        hit.material = shape.material, hit.inside = sphere && behind;
+        hit.p_world = at(sample.t);
+        hit.p_local = sphere ? hit.p_world - shape.center_world : hit.p_world;
+        hit.normal_world = sphere ? glm::normalize(hit.p_local) : shape.normal_world * sides_[sample.shape];
         return hit;
     }
     double sign() const { return sign_; }
@@ -80,8 +85,8 @@ SceneDistance::Sample nearestOf(SceneDistance& distance, const SceneDistance::Sa
 
 }  // namespace
 
-CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const FieldRay& ray, double reach,
-                          int most_steps) {
+CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const SceneTracer& surfaces,
+                          const FieldRay& ray, double reach, int most_steps) {
     SceneDistance distance(scene, tape, ray);
     CoverageHit result;
     result.sign = distance.sign();
@@ -92,7 +97,7 @@ CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const Field
         ++steps;
         if (sample.distance < limit) {
             const SceneDistance::Sample nearest = nearestOf(distance, sample, limit);
-            result.surface = distance.hitAt(nearest);
+            result.surface = distance.hitAt(nearest, surfaces);
             result.coverage = shading::coverageOf(nearest.distance, limit);
             break;
         }

@@ -1,9 +1,7 @@
 // A ray that ends near surfaces, and how much of its pixel they cover: "Sphere Tracing AA" (Lottes 2016).
 #pragma once
 
-#include "sdf/field_scene.h"
-#include "sdf/surface_tracer.h"
-#include "sdf/tape.h"
+#include "sdf/scene_trace.h"
 
 namespace edgewise::sdf {
 
@@ -15,7 +13,9 @@ struct CoverageHit {
 
 /// Goes on until the distance is within `reach` of the pixel's diameter there, then one step of that length through the
 /// surface. The two distances give the surface's place by the secant; coverage falls with the least of the three
-/// distances. Analytic shapes have distances too. `tape`: the scene's tree, empty without one.
-CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const FieldRay& ray, double reach, int most_steps);
+/// distances. Analytic shapes have distances too.
+/// `tape`: the scene's tree, empty without one, of which `surfaces` was made.
+CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const SceneTracer& surfaces,
+                          const FieldRay& ray, double reach, int most_steps);
 
 }  // namespace edgewise::sdf

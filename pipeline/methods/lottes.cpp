@@ -10,7 +10,6 @@
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/methods/temporal_mean.h"
 #include "pipeline/write_image.h"
-#include "sdf/classic_tracer.h"
 
 namespace edgewise {
 namespace {
@@ -40,11 +39,10 @@ void dumpDeviation(const MethodInput& in, const TemporalMean& frames) {
 }  // namespace
 
 MethodResult runLottes(const MethodSpec& spec, const MethodInput& in) {
-    const sdf::FieldScene& scene = requireTree(spec.name, in.scene);
+    requireTree(spec.name, in.scene);
     MethodResult result;
     Stopwatch watch;
-    const sdf::ClassicTracer surfaces(scene);
-    const LottesFrames lottes(in, settingsOf(spec), scene, surfaces);
+    const LottesFrames lottes(in, settingsOf(spec));
     result.setup_seconds = watch.lap();
     TemporalMean mean;
     sdf::RayCounts rays;

@@ -32,9 +32,9 @@ glm::dvec2 lottesJitter(int x, int y, std::uint64_t frame, std::uint64_t seed);
 
 class LottesFrames {
   public:
-    /// `surfaces` answers rays to lights and beyond mirrors. All outlive it.
-    LottesFrames(const MethodInput& in, const LottesSettings& settings, const sdf::FieldScene& scene,
-                 const sdf::SurfaceTracer& surfaces);
+    /// The input, with its SDF scene, outlives it.
+    LottesFrames(const MethodInput& in, const LottesSettings& settings);
+    LottesFrames(const LottesFrames&) = delete;
 
     /// Rays of the crop and of as much around it as the 11 rays of its pixels take.
     PixelBox window() const;
@@ -52,6 +52,7 @@ class LottesFrames {
     LottesSettings settings_;
     const sdf::FieldScene& scene_;
     sdf::Tape tape_;
+    sdf::SceneTracer surfaces_;  ///< for rays to lights and beyond mirrors
     sdf::Shader shader_;
     FieldCamera camera_;
 };

@@ -27,14 +27,14 @@ glm::dvec2 lottesJitter(int x, int y, std::uint64_t frame, std::uint64_t seed) {
     return glm::dvec2(u >> 32, v >> 32) * 0x1p-32;
 }
 
-LottesFrames::LottesFrames(const MethodInput& in, const LottesSettings& settings, const sdf::FieldScene& scene,
-                           const sdf::SurfaceTracer& surfaces)
+LottesFrames::LottesFrames(const MethodInput& in, const LottesSettings& settings)
     : in_(in),
       settings_(settings),
-      scene_(scene),
-      tape_(scene.tree.empty() ? sdf::Tape{} : lower(scene.tree)),
-      shader_(fieldShading(in, {}, false), surfaces),
-      camera_(in.camera, in.film, scene.far) {}
+      scene_(*in.scene.field),
+      tape_(loweredTree(scene_)),
+      surfaces_(scene_, tape_, {}),
+      shader_(fieldShading(in, {}, false), surfaces_),
+      camera_(in.camera, in.film, scene_.far) {}
 
 PixelBox LottesFrames::window() const {
     const PixelBox& crop = in_.film.crop;
@@ -45,7 +45,7 @@ LottesRay LottesFrames::rayOf(int x, int y, std::uint64_t frame, sdf::RayCounts&
     LottesRay out;
     out.p_px = glm::dvec2(x, y) + lottesJitter(x, y, frame, in_.options.seed);
     const sdf::FieldRay ray = camera_.ray(out.p_px);
-    const sdf::CoverageHit hit = coverageAlong(scene_, tape_, ray, settings_.distance, kMostSteps);
+    const sdf::CoverageHit hit = coverageAlong(scene_, tape_, surfaces_, ray, settings_.distance, kMostSteps);
     ++counts.primary;
     counts.evaluations += hit.surface.evaluations;
     out.color = shader_.shade(ray, hit.surface, counts, hit.sign);

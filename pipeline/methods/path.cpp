@@ -7,8 +7,8 @@
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/path_sampler.h"
-#include "sdf/classic_tracer.h"
 #include "sdf/path_tracer.h"
+#include "sdf/scene_trace.h"
 
 namespace edgewise {
 
@@ -17,7 +17,8 @@ MethodResult runPath(const MethodSpec& spec, const MethodInput& in) {
     MethodResult result;
     Stopwatch watch;
     const sdf::TraceSettings trace;
-    const sdf::ClassicTracer surfaces(scene, trace.threshold);
+    const sdf::Tape tape = loweredTree(scene);
+    const sdf::SceneTracer surfaces(scene, tape, trace);
     const sdf::PathTracer paths(fieldShading(in, trace, true), scene.analytic, surfaces);
     const FieldCamera camera(in.camera, in.film, scene.far);
     result.setup_seconds = watch.lap();
@@ -32,7 +33,7 @@ MethodResult runPath(const MethodSpec& spec, const MethodInput& in) {
             for (int s = 0; s < *spec.number; ++s) {
                 sampler.start(s);
                 const sdf::FieldRay ray = camera.ray(glm::dvec2(x, y) + sampler.position());
-                sum += paths.radiance(ray, sampler, counts.local());
+                sum += paths.radiance(ray, sampler, counts.local(), surfaces.signAt(ray.origin_world));
             }
             result.image.rgba[result.image.index(x, y)] = sum / static_cast<double>(*spec.number);
         }
