@@ -71,16 +71,10 @@ class SceneDistance {
     std::vector<double> sides_;
 };
 
-/// The sample nearest to the surface of the last two and the one where their secant says that it is.
-SceneDistance::Sample nearestOf(SceneDistance& distance, const SceneDistance::Sample& first, double step) {
-    SceneDistance::Sample nearest = first;
-    const auto take = [&](const SceneDistance::Sample& sample) {
-        if (std::abs(sample.distance) < std::abs(nearest.distance)) nearest = sample;
-    };
+/// One step more, and the sample where the secant of the last two says that the surface is.
+SceneDistance::Sample surfaceBeyond(SceneDistance& distance, const SceneDistance::Sample& first, double step) {
     const SceneDistance::Sample second = distance(first.t + step);
-    take(second);
-    take(distance(shading::secantRoot(first.t, first.distance, second.t, second.distance)));
-    return nearest;
+    return distance(shading::secantRoot(first.t, first.distance, second.t, second.distance));
 }
 
 }  // namespace
@@ -96,9 +90,9 @@ CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const Scene
         const double limit = reach * 2.0 * (ray.pixel_radius + ray.pixel_slope * t);
         ++steps;
         if (sample.distance < limit) {
-            const SceneDistance::Sample nearest = nearestOf(distance, sample, limit);
-            result.surface = distance.hitAt(nearest, surfaces);
-            result.coverage = shading::coverageOf(nearest.distance, limit);
+            const SceneDistance::Sample estimate = surfaceBeyond(distance, sample, limit);
+            result.surface = distance.hitAt(estimate, surfaces);
+            result.coverage = shading::coverageOf(estimate.distance, limit);
             break;
         }
         t += sample.distance;

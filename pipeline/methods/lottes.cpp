@@ -16,9 +16,9 @@ namespace {
 
 LottesSettings settingsOf(const MethodSpec& spec) {
     LottesSettings settings;
-    settings.distance = realParameter(spec, "distance");
-    settings.scale = realParameter(spec, "scale");
-    settings.grain = realParameter(spec, "grain");
+    settings.distance = spec.numberOf("distance", settings.distance);
+    settings.scale = spec.numberOf("scale", settings.scale);
+    settings.grain = spec.numberOf("grain", settings.grain);
     settings.disk = spec.parameter("weights", "gaussian") == "disk";
     settings.spectrum = spec.parameter("spectrum", "blue") == "white" ? GrainSpectrum::kWhite : GrainSpectrum::kBlue;
     settings.coverage = spec.parameter("coverage", "on") == "on";

@@ -97,6 +97,8 @@ struct MethodSpec {
         const auto found = parameters.find(key);
         return found == parameters.end() ? fallback : found->second;
     }
+    /// The same of a number, which parseMethod() has checked.
+    double numberOf(const std::string& key, double fallback) const;
 };
 
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
@@ -116,14 +118,11 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
 /// One line a method of this build: name, parameters, what it is.
 std::vector<std::string> describeMethods();
 
-/// A parameter that is a number.
-struct RealRange {
-    double low, high;
-    double fallback;
+/// Numbers that a parameter may be, ends included.
+struct NumberRange {
+    double low = 0.0, high = 1.0;
+    bool whole = false;
 };
-
-/// The number given for it, or its fallback.
-double realParameter(const MethodSpec& spec, const std::string& key);
 
 /// What the registry holds for each method; a new method adds one entry in registry.cpp.
 struct MethodEntry {
@@ -135,8 +134,8 @@ struct MethodEntry {
     bool own_box = false;            ///< takes no --filter
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
-        choices;  ///< parameter -> what it may be; device is added to all
-    std::map<std::string, RealRange> reals = {};  ///< parameter -> from where to where
+        choices;                                     ///< parameter -> what it may be; device is added to all
+    std::map<std::string, NumberRange> ranges = {};  ///< parameter -> which numbers it may be
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
     MethodResult (*run_vulkan)(const MethodSpec&,
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "pipeline/device_error.h"
 
@@ -73,27 +74,37 @@ void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spe
     spec.number = value;
 }
 
-std::optional<double> realOf(std::string_view text) {
+std::optional<double> numberIn(std::string_view text) {
     double value = 0.0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return {};
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
     return value;
 }
 
-void checkReal(std::string_view key, std::string_view value, const RealRange& range, const MethodSpec& spec) {
-    const std::optional<double> number = realOf(value);
-    if (!number || !(*number >= range.low && *number <= range.high))
-        fail(spec.typed, fmt::format("{} is a number from {} to {}, not '{}'", key, range.low, range.high, value));
+std::string rangeWords(const NumberRange& range) {
+    return fmt::format("{}..{}", range.low, range.high);
+}
+
+bool takeNumberParameter(std::string_view key, std::string_view text, const MethodEntry& entry,
+                         const MethodSpec& spec) {
+    const auto known = entry.ranges.find(std::string(key));
+    if (known == entry.ranges.end()) return false;
+    const NumberRange& range = known->second;
+    const std::optional<double> value = numberIn(text);
+    if (!value || !(*value >= range.low && *value <= range.high) ||
+        (range.whole && *value != std::floor(*value)))
+        fail(spec.typed, fmt::format("{} is a{} number in {}, not '{}'", key, range.whole ? " whole" : "",
+                                     rangeWords(range), text));
+    return true;
 }
 
 void takeParameter(std::string_view key, std::string_view value, const MethodEntry& entry, MethodSpec& spec) {
-    const auto known = entry.choices.find(std::string(key));
-    const auto real = entry.reals.find(std::string(key));
-    if (real != entry.reals.end()) {
-        checkReal(key, value, real->second, spec);
-        if (!spec.parameters.emplace(key, value).second) fail(spec.typed, fmt::format("{} is given twice", key));
+    if (takeNumberParameter(key, value, entry, spec)) {
+        if (!spec.parameters.emplace(key, value).second)
+            fail(spec.typed, fmt::format("{} is given twice", key));
         return;
     }
+    const auto known = entry.choices.find(std::string(key));
     if (key != "device" && known == entry.choices.end())
         fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
     const std::vector<std::string>& choices = key == "device" ? kDevices : known->second;
@@ -128,8 +139,8 @@ std::string describe(const MethodEntry& entry) {
                                                    : fmt::format("{}", fmt::join(entry.numbers, "|")));
     for (const auto& [key, choices] : entry.choices)
         parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
-    for (const auto& [key, range] : entry.reals)
-        parameters.push_back(fmt::format("{}={}..{}", key, range.low, range.high));
+    for (const auto& [key, range] : entry.ranges)
+        parameters.push_back(fmt::format("{}={}", key, rangeWords(range)));
     parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
     return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
 }
@@ -190,7 +201,7 @@ const std::vector<MethodEntry>& methodRegistry() {
          .choices = {{"weights", {"gaussian", "disk"}},
                      {"spectrum", {"blue", "white"}},
                      {"coverage", {"on", "off"}}},
-         .reals = {{"distance", {0.05, 4.0, 0.75}}, {"scale", {0.01, 100.0, 2.0}}, {"grain", {0.0, 1.0, 0.01}}},
+         .ranges = {{"distance", {0.05, 4}}, {"scale", {0.01, 100}}, {"grain", {0, 1}}},
          .run = runLottes},
         {.name = "path",
          .summary = "SDF: path traced, N samples a pixel",
@@ -217,18 +228,17 @@ const std::vector<MethodEntry>& methodRegistry() {
     return registry;
 }
 
+double MethodSpec::numberOf(const std::string& key, double fallback) const {
+    const auto found = parameters.find(key);
+    return found == parameters.end() ? fallback : numberIn(found->second).value_or(fallback);
+}
+
 MethodSpec parseMethod(std::string_view typed) {
     const auto parts = split(typed, '+');
     MethodSpec spec = parseOne(parts.front());
     spec.typed = typed;
     for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
     return spec;
-}
-
-double realParameter(const MethodSpec& spec, const std::string& key) {
-    const auto given = spec.parameters.find(key);
-    if (given != spec.parameters.end()) return realOf(given->second).value();
-    return requireMethod(spec.typed, spec.name).reals.at(key).fallback;
 }
 
 bool takesFilter(const MethodSpec& spec) {
