@@ -3,22 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/error.h"
-#include "pipeline/lighting.h"
+#include "pipeline/field_rays.h"
 #include "sdf/scene_error.h"
 
 namespace edgewise {
 namespace {
-
-sdf::SurfaceLight rigLight(const RigLight& lamp, const glm::dmat3& world_from_camera) {
-    sdf::SurfaceLight light;
-    light.direction_world = glm::normalize(world_from_camera * -lamp.towards);
-    light.intensity = M_PI * lamp.intensity;
-    light.shadows = false;
-    return light;
-}
 
 bool shines(const sdf::FieldScene& scene) {
     return std::ranges::any_of(scene.materials, [](const auto& m) { return m.emission != glm::dvec3(0.0); });
@@ -31,9 +22,7 @@ sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSetting
     sdf::ShadingSettings settings = shadingOf(scene, trace);
     settings.background = in.options.background;
     if (!scene.lights.empty() || (emission_counts && shines(scene))) return settings;
-    const glm::dmat3 world_from_camera(in.camera.camera.world_from_camera);
-    for (const RigLight& lamp : {kRigKey, kRigFill}) settings.lights.push_back(rigLight(lamp, world_from_camera));
-    settings.ambient = glm::dvec3(kRigAmbient);
+    addDefaultRig(in.camera, settings);
     return settings;
 }
 

@@ -23,7 +23,7 @@ AnalyticMeeting meetPlane(const AnalyticShape& shape, const FieldRay& ray) {
     const double fall = glm::dot(ray.direction_world, shape.normal_world);
     const double t = (shape.offset - glm::dot(ray.origin_world, shape.normal_world)) / fall;
     if (!(t >= ray.t_min && t <= ray.t_max)) return {kInfinity, {}, false};
-    return {t, shape.normal_world, false};
+    return {t, fall > 0.0 ? -shape.normal_world : shape.normal_world, false};
 }
 
 }  // namespace

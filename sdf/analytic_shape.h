@@ -14,7 +14,7 @@ std::pair<double, double> meetSphere(const glm::dvec3& origin_world, const glm::
 
 struct AnalyticMeeting {
     double t;                 ///< infinite: none between the ray's t_min and t_max
-    glm::dvec3 normal_world;  ///< unit; of spheres outward, of planes their own
+    glm::dvec3 normal_world;  ///< unit; of spheres outward, of planes on the ray's side
     bool inside;              ///< the ray comes from within a sphere
 };
 AnalyticMeeting meet(const AnalyticShape& shape, const FieldRay& ray);

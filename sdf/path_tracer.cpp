@@ -24,8 +24,9 @@ struct PathTracer::Path {
     TravellingRay way;
     glm::dvec3 throughput{1.0};
     glm::dvec3 sum{0.0};
-    double density = 0.0;  ///< of the way's direction, where it was scattered; 0: mirrored, refracted, or first
-    int surface = 0;       ///< on the path
+    double density =
+        0.0;          ///< of the way's direction, where it was scattered; 0: mirrored, refracted, or first
+    int surface = 0;  ///< on the path
     bool ended = false;
 };
 
@@ -89,9 +90,10 @@ void PathTracer::step(Path& path, const SurfaceHit& hit, PathSampler& sampler, R
         const bool mirrors = random.x < shares.x + shares.y || shares.z == 0.0;
         path.density = 0.0;
         ++(mirrors ? counts.reflection : counts.refraction);
-        path.way = mirrors ? rayFrom(settings_, path.way, hit, point, shading::mirrored(direction, point.normal))
-                           : rayThrough(settings_, path.way, hit, point,
-                                        shading::refracted(direction, point.normal, point.eta));
+        path.way = mirrors
+                       ? rayFrom(settings_, path.way, hit, point, shading::mirrored(direction, point.normal))
+                       : rayThrough(settings_, path.way, hit, point,
+                                    shading::refracted(direction, point.normal, point.eta));
     }
     ++path.surface;
     if (path.ended || path.surface <= path_.roulette_after) return;

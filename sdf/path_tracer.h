@@ -23,19 +23,21 @@ struct PathSettings {
     bool next_event = true;  ///< lights are looked for from each point that scatters; else only met
 };
 
-/// At each surface a path scatters (Lambert, or Blinn-Phong about the same directions), mirrors or refracts by
-/// chance, as surfaceShares() says. Directional and point lights, which no path meets, are asked for at each
-/// point that scatters; so are emissive analytic spheres, within the cone under which they are seen, weighed
-/// against meeting them by chance (the power heuristic). Other emissive surfaces and the background are met by
-/// chance alone. Ambient light is left out: paths bring it. Unlit surfaces end paths with their colour.
+/// At each surface a path scatters (Lambert, or Blinn-Phong about the same directions), mirrors or refracts
+/// by chance, as surfaceShares() says. Directional and point lights, which no path meets, are asked for at
+/// each point that scatters; so are emissive analytic spheres, within the cone under which they are seen,
+/// weighed against meeting them by chance (the power heuristic). Other emissive surfaces and the background
+/// are met by chance alone. Ambient light is left out: paths bring it. Unlit surfaces end paths with their
+/// colour.
 class PathTracer {
   public:
     /// Refers to the tracer, which outlives it; `shapes` are the scene's analytic ones.
-    PathTracer(ShadingSettings settings, const std::vector<AnalyticShape>& shapes, const SurfaceTracer& tracer,
-               PathSettings path = {});
+    PathTracer(ShadingSettings settings, const std::vector<AnalyticShape>& shapes,
+               const SurfaceTracer& tracer, PathSettings path = {});
 
     /// Of one path. Colour, and alpha: whether the first ray meets a surface.
-    glm::dvec4 radiance(const FieldRay& ray, PathSampler& sampler, RayCounts& counts, double sign = 1.0) const;
+    glm::dvec4 radiance(const FieldRay& ray, PathSampler& sampler, RayCounts& counts,
+                        double sign = 1.0) const;
 
     /// Pairs that a path of that many surfaces takes.
     std::uint32_t pairs(int surfaces) const { return surfaces * pairs_; }

@@ -10,14 +10,6 @@
 namespace edgewise::sdf {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void count(const TraceHit& hit, const Tape& tape, TraceCounts* counts) {
-    if (!counts) return;
-    counts->rays += 1, counts->evaluations += hit.evaluations, counts->iterations += hit.iterations;
-    counts->failed += hit.failed, counts->instructions += hit.evaluations * tape.size();
-}
-
 /// The ray from its end to its start.
 FieldRay reversed(const FieldRay& ray, double t_end) {
     FieldRay back = ray;
@@ -30,12 +22,6 @@ FieldRay reversed(const FieldRay& ray, double t_end) {
 }
 
 }  // namespace
-
-TraceCounts& TraceCounts::operator+=(const TraceCounts& other) {
-    rays += other.rays, evaluations += other.evaluations, iterations += other.iterations;
-    failed += other.failed, instructions += other.instructions;
-    return *this;
-}
 
 SceneTracer::SceneTracer(const FieldScene& scene, const Tape& tape, const TraceSettings& settings)
     : scene_(scene), tape_(tape), settings_(settings) {}
@@ -59,75 +45,62 @@ TraceHit SceneTracer::traceField(const FieldRay& ray, double sign) const {
     return hit;
 }
 
-void SceneTracer::meetField(const FieldRay& ray, FieldHit& nearest, TraceCounts* counts) const {
-    FieldRay part = ray;
-    part.t_max = std::min(ray.t_max, nearest.t);
-    const double sign = valueAt(tape_, ray.origin_world) < 0.0 ? -1.0 : 1.0;
-    TraceHit hit = traceField(part, sign);
-    ++hit.evaluations;  // for the sign
-    count(hit, tape_, counts);
-    nearest.evaluations = hit.evaluations, nearest.iterations = hit.iterations;
-    if (!hit.hit()) return;
-    place(ray, hit, nearest);
-    nearest.inside = sign < 0.0;
-}
-
-void SceneTracer::place(const FieldRay& ray, const TraceHit& hit, FieldHit& out) const {
-    out.t = hit.t, out.value = hit.value;
+SurfaceHit SceneTracer::fieldHit(const FieldRay& ray, const TraceHit& hit, double sign) const {
+    SurfaceHit out;
     out.evaluations = hit.evaluations, out.iterations = hit.iterations;
-    out.position_world = ray.origin_world + ray.direction_world * hit.t;
-    out.normal_world = normalAt(out.position_world);
-    out.material = materialAt(out.position_world);
-    out.inside = false;
+    if (!hit.hit()) return out;
+    out.hit = true, out.inside = sign < 0.0;
+    out.t = hit.t, out.value = hit.value;
+    out.p_world = ray.origin_world + ray.direction_world * hit.t;
+    out.normal_world = normalAt(out.p_world);
+    out.material = winnerAt(tape_, out.p_world, out.p_local).material;
+    out.material = std::min(out.material, static_cast<std::uint32_t>(scene_.materials.size() - 1));
+    return out;
 }
 
-void SceneTracer::meetAnalytic(const FieldRay& ray, FieldHit& nearest) const {
-    for (const AnalyticShape& shape : scene_.analytic) {
+void SceneTracer::meetAnalytic(const FieldRay& ray, SurfaceHit& nearest) const {
+    for (std::size_t i = 0; i < scene_.analytic.size(); ++i) {
+        const AnalyticShape& shape = scene_.analytic[i];
         const AnalyticMeeting met = meet(shape, ray);
-        if (!(met.t < nearest.t)) continue;
-        nearest = {};
-        nearest.t = met.t;
-        nearest.position_world = ray.origin_world + ray.direction_world * met.t;
-        nearest.normal_world = met.normal_world, nearest.inside = met.inside;
-        nearest.material = shape.material;
+        if (!(met.t <= ray.t_max) || (nearest.hit && met.t >= nearest.t)) continue;
+        const bool sphere = shape.type == AnalyticShape::Type::kSphere;
+        nearest.hit = true, nearest.shape = static_cast<std::uint32_t>(i);
+        nearest.inside = met.inside, nearest.t = met.t, nearest.value = 0.0;
+        nearest.p_world = ray.origin_world + ray.direction_world * met.t;
+        nearest.normal_world = met.normal_world, nearest.material = shape.material;
+        nearest.p_local = sphere ? nearest.p_world - shape.center_world : nearest.p_world;
     }
 }
 
-FieldHit SceneTracer::nearest(const FieldRay& ray, TraceCounts* counts) const {
-    FieldHit nearest;
-    meetAnalytic(ray, nearest);
-    if (tape_.size() > 0) meetField(ray, nearest, counts);
-    return nearest;
+SurfaceHit SceneTracer::nearest(const FieldRay& ray, double sign) const {
+    SurfaceHit analytic;
+    meetAnalytic(ray, analytic);
+    if (tape_.size() == 0) return analytic;
+    FieldRay part = ray;
+    if (analytic.hit) part.t_max = analytic.t;
+    const SurfaceHit field = fieldHit(ray, traceField(part, sign), sign);
+    if (field.hit) return field;
+    analytic.evaluations = field.evaluations, analytic.iterations = field.iterations;
+    return analytic;
 }
 
-bool SceneTracer::occluded(const FieldRay& ray, double distance, TraceCounts* counts) const {
-    FieldRay part = ray;
-    part.t_max = std::min(ray.t_max, distance);
-    FieldHit nearest;
-    meetAnalytic(part, nearest);
-    if (nearest.hit()) return true;
-    if (tape_.size() == 0 || !withinBound(part)) return false;
-    const TraceHit hit = traceRay(tape_, part, settings_);
-    count(hit, tape_, counts);
+bool SceneTracer::occluded(const FieldRay& ray, double sign, std::uint64_t& evaluations) const {
+    SurfaceHit analytic;
+    meetAnalytic(ray, analytic);
+    if (analytic.hit || tape_.size() == 0) return analytic.hit;
+    const TraceHit hit = traceField(ray, sign);
+    evaluations += hit.evaluations;
     return hit.hit();
 }
 
-double SceneTracer::secondaryOffset(const FieldHit& hit, double eye_distance) const {
-    const double least = settings_.epsilon * std::max(eye_distance, 1e-3);
-    return 2.0 * (settings_.dynamic_epsilon ? std::max(least, std::abs(hit.value)) : least);
-}
-
-std::uint32_t SceneTracer::materialAt(const glm::dvec3& p_world) const {
-    glm::dvec3 local;
-    const std::uint32_t material = winnerAt(tape_, p_world, local).material;
-    const auto last = static_cast<std::uint32_t>(scene_.materials.size() - 1);
-    return std::min(material, last);
+double SceneTracer::signAt(const glm::dvec3& p_world) const {
+    return tape_.size() > 0 && valueAt(tape_, p_world) < 0.0 ? -1.0 : 1.0;
 }
 
 glm::dvec3 SceneTracer::normalAt(const glm::dvec3& p_world) const {
     const glm::dvec3 gradient = gradientAt(tape_, p_world).gradient;
     const double length = glm::length(gradient);
-    return length > 0.0 && length < kInfinity ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
+    return length > 0.0 && std::isfinite(length) ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
 }
 
 }  // namespace edgewise::sdf

@@ -13,8 +13,8 @@ struct SurfaceHit {
     static constexpr std::uint32_t kField = 0xffffffffu;
     bool hit = false;
     std::uint32_t shape = kField;  ///< of FieldScene::analytic
-    bool inside = false;   ///< the ray comes from within the solid
-    double t = 0.0;        ///< along the ray
+    bool inside = false;           ///< the ray comes from within the solid
+    double t = 0.0;                ///< along the ray
     glm::dvec3 p_world{0.0};
     glm::dvec3 normal_world{0.0};  ///< unit, out of the solid; planes: on the ray's side
     glm::dvec3 p_local{0.0};  ///< in the winning shape's frame; analytic shapes: from the centre, or p_world

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "sdf/cone_march.h"
 #include "sdf/tape_lanes.h"
@@ -96,6 +97,11 @@ class LaneQueue {
 
 }  // namespace
 
+TileSides TileSides::forSamples(int per_side) {
+    const int scale = std::min(static_cast<int>(std::bit_ceil(static_cast<unsigned>(per_side))), 64);
+    return {std::max(64 / scale, 1), std::max(8 / scale, 1)};
+}
+
 TileCounts& TileCounts::operator+=(const TileCounts& other) {
     rays += other.rays, evaluations += other.evaluations, iterations += other.iterations;
     failed += other.failed, cones += other.cones, cone_evaluations += other.cone_evaluations;
@@ -112,10 +118,10 @@ class TileWork {
         : t_(tracer), scale_(tracer.sign_ / tracer.tape_.lipschitz), hits_(hits), counts_(counts) {}
 
     void run(int x, int y, std::span<TileRay> rays) {
-        const Beam beam = beamOf(x, y, kTopTilePx);
+        const Beam beam = beamOf(x, y, t_.sides_.top_px);
         const Slabs slabs(beam, t_.grid_.t_min, t_.grid_.t_max);
         SlabTapes tapes(t_.tape_, slabs, beam, t_.settings_.prune);
-        std::vector<Tile> top{{x, y, kTopTilePx, rays, t_.grid_.t_min}};
+        std::vector<Tile> top{{x, y, t_.sides_.top_px, rays, t_.grid_.t_min}};
         march(top, tapes);
         if (!top.empty()) descend(top.front(), tapes);
     }
@@ -174,7 +180,7 @@ class TileWork {
     }
 
     void descend(const Tile& tile, SlabTapes& tapes) {
-        if (tile.side <= kLeafTilePx) return traceLeaf(tile, tapes);
+        if (tile.side <= t_.sides_.leaf_px) return traceLeaf(tile, tapes);
         std::vector<Tile> parts = quarters(tile);
         march(parts, tapes);
         for (const Tile& part : parts) {
@@ -223,8 +229,9 @@ class TileWork {
     TileCounts& counts_;
 };
 
-TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign)
-    : tape_(tape), grid_(grid), settings_(settings), sign_(sign) {}
+TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign,
+                       TileSides sides)
+    : tape_(tape), grid_(grid), settings_(settings), sign_(sign), sides_(sides) {}
 
 void TileTracer::trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                        TileCounts& counts) const {

@@ -11,9 +11,13 @@
 
 namespace edgewise::sdf {
 
-/// Tiles lie on the grid of multiples of their sides, in absolute pixels, so that a part of a picture has
-/// the whole's bits.
-inline constexpr int kTopTilePx = 64, kLeafTilePx = 8;
+/// Sides of tiles, powers of 2. Tiles lie on the grid of multiples of their sides, in absolute pixels, so
+/// that a part of a picture has the whole's bits.
+struct TileSides {
+    int top_px = 64, leaf_px = 8;
+    /// As many samples a tile, or a tile of one pixel.
+    static TileSides forSamples(int per_side);
+};
 
 struct TileRay {
     FieldRay ray;
@@ -34,10 +38,11 @@ struct TileCounts {
 class TileTracer {
   public:
     /// Refers to its arguments. `sign`: -1 where rays start within the solid.
-    TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign);
+    TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign,
+               TileSides sides = {});
 
-    /// Traces rays through the top tile whose corner is at (x, y): its own sides are multiples of
-    /// kTopTilePx. Sorts the rays.
+    /// Traces rays through the top tile whose corner is at (x, y): multiples of its side. Sorts
+    /// the rays.
     void trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                TileCounts& counts) const;
 
@@ -47,6 +52,7 @@ class TileTracer {
     const RayGrid& grid_;
     const TraceSettings& settings_;
     double sign_;
+    TileSides sides_;
 };
 
 }  // namespace edgewise::sdf

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/field_camera.h"
+#include "pipeline/field_rays.h"
 #include "pipeline/grain.h"
 #include "pipeline/methods/method.h"
 #include "sdf/coverage_trace.h"
@@ -54,7 +54,7 @@ class LottesFrames {
     sdf::Tape tape_;
     sdf::SceneTracer surfaces_;  ///< for rays to lights and beyond mirrors
     sdf::Shader shader_;
-    FieldCamera camera_;
+    sdf::RayGrid grid_;
 };
 
 }  // namespace edgewise

@@ -34,7 +34,7 @@ LottesFrames::LottesFrames(const MethodInput& in, const LottesSettings& settings
       tape_(loweredTree(scene_)),
       surfaces_(scene_, tape_, {}),
       shader_(fieldShading(in, {}, false), surfaces_),
-      camera_(in.camera, in.film, scene_.far) {}
+      grid_(rayGrid(in.camera, in.film, scene_.far)) {}
 
 PixelBox LottesFrames::window() const {
     const PixelBox& crop = in_.film.crop;
@@ -44,7 +44,7 @@ PixelBox LottesFrames::window() const {
 LottesRay LottesFrames::rayOf(int x, int y, std::uint64_t frame, sdf::RayCounts& counts) const {
     LottesRay out;
     out.p_px = glm::dvec2(x, y) + lottesJitter(x, y, frame, in_.options.seed);
-    const sdf::FieldRay ray = camera_.ray(out.p_px);
+    const sdf::FieldRay ray = grid_.ray(out.p_px);
     const sdf::CoverageHit hit = coverageAlong(scene_, tape_, surfaces_, ray, settings_.distance, kMostSteps);
     ++counts.primary;
     counts.evaluations += hit.surface.evaluations;

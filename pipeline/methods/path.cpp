@@ -2,7 +2,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "pipeline/field_camera.h"
+#include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
@@ -20,7 +20,7 @@ MethodResult runPath(const MethodSpec& spec, const MethodInput& in) {
     const sdf::Tape tape = loweredTree(scene);
     const sdf::SceneTracer surfaces(scene, tape, trace);
     const sdf::PathTracer paths(fieldShading(in, trace, true), scene.analytic, surfaces);
-    const FieldCamera camera(in.camera, in.film, scene.far);
+    const sdf::RayGrid grid = rayGrid(in.camera, in.film, scene.far);
     result.setup_seconds = watch.lap();
     result.image = ImageBuffer(in.film.crop);
     tbb::enumerable_thread_specific<sdf::RayCounts> counts;
@@ -32,7 +32,7 @@ MethodResult runPath(const MethodSpec& spec, const MethodInput& in) {
             glm::dvec4 sum(0.0);
             for (int s = 0; s < *spec.number; ++s) {
                 sampler.start(s);
-                const sdf::FieldRay ray = camera.ray(glm::dvec2(x, y) + sampler.position());
+                const sdf::FieldRay ray = grid.ray(glm::dvec2(x, y) + sampler.position());
                 sum += paths.radiance(ray, sampler, counts.local(), surfaces.signAt(ray.origin_world));
             }
             result.image.rgba[result.image.index(x, y)] = sum / static_cast<double>(*spec.number);

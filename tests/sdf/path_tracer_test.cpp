@@ -109,8 +109,8 @@ TEST(PathTracer, ASphereLightGivesItsClosedForm) {
                 estimate(scene, rayAlong({x, 0.3, 0}, {0, -1, 0}), 40000, {1, 3, next_event});
             EXPECT_NEAR(seen.mean, truth, 4.0 * seen.deviation);
             EXPECT_GT(seen.deviation, 0.0);
-            std::printf("x %4.1f, %s: %.5f +- %.5f, closed form %.5f\n", x,
-                        next_event ? "looked for" : "met", seen.mean, seen.deviation, truth);
+            std::printf("x %4.1f, %s: %.5f +- %.5f, closed form %.5f\n", x, next_event ? "looked for" : "met",
+                        seen.mean, seen.deviation, truth);
         }
     }
 }
@@ -176,7 +176,8 @@ TEST(PathTracer, DirectionsHaveTheirDensities) {
     for (int i = 0; i < side; ++i)
         for (int j = 0; j < side; ++j) {
             const double u = (i + 0.5) / side, v = (j + 0.5) / side;
-            const glm::dvec3 a = shading::cosineDirection(n, u, v), b = shading::coneDirection(n, versine, u, v);
+            const glm::dvec3 a = shading::cosineDirection(n, u, v),
+                             b = shading::coneDirection(n, versine, u, v);
             worst = std::max({worst, std::abs(length(a) - 1.0), std::abs(length(b) - 1.0)});
             EXPECT_GE(dot(b, n), 1.0 - versine - 1e-15);
             cosines += dot(a, n) / (side * side);

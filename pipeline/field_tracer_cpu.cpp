@@ -1,0 +1,251 @@
+// SDF scenes on the CPU: tiles of rays on all threads, then each hit is shaded.
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "pipeline/error.h"
+#include "pipeline/field_rays.h"
+#include "pipeline/field_tracer.h"
+#include "pipeline/methods/stopwatch.h"
+#include "sdf/scene_error.h"
+#include "sdf/scene_trace.h"
+#include "sdf/shader.h"
+#include "sdf/tile_trace.h"
+
+namespace edgewise {
+namespace {
+
+sdf::Tape lowered(const sdf::FieldScene& scene) {
+    if (scene.glsl) throw InputError(scene.source, "is GLSL, which runs through Vulkan alone");
+    if (scene.tree.empty()) return {};
+    try {
+        return sdf::lower(scene.tree);
+    } catch (const sdf::SceneError& error) {
+        throw InputError(scene.source + ": " + error.element, error.rule);
+    }
+}
+
+sdf::ShadingSettings shadingSettings(const MethodInput& in, const sdf::TraceSettings& trace) {
+    sdf::ShadingSettings settings = sdf::shadingOf(*in.scene.field, trace);
+    settings.background = in.options.background;
+    if (settings.lights.empty()) addDefaultRig(in.camera, settings);
+    return settings;
+}
+
+int tileOf(int px, int side) {
+    return static_cast<int>(std::floor(static_cast<double>(px) / side));
+}
+
+class CpuFieldTracer : public FieldTracer {
+  public:
+    CpuFieldTracer(const MethodInput& in, const FieldSettings& settings)
+        : in_(in),
+          settings_(settings),
+          scene_(*in.scene.field),
+          tape_(lowered(scene_)),
+          grid_(rayGrid(in.camera, in.film, scene_.far)),
+          tracer_(scene_, tape_, settings.trace),
+          shader_(shadingSettings(in, settings.trace), tracer_) {
+        if (settings.integrator == FieldIntegrator::kPath)
+            throw InputError("path", "is not in this build's CPU tracer");
+        sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
+        setup_seconds_ = watch_.lap();
+    }
+
+    FieldSamples trace(const FieldWindow& window) override {
+        FieldSamples out = sized(window.samples());
+        std::vector<sdf::TraceHit> hits(window.samples());
+        watch_.lap();
+        if (tape_.size() > 0) traceTiles(window, hits);
+        checkCancelled(in_.progress);
+        watch_.book("trace", stages_);
+        shadeAll(window, hits, out);
+        checkCancelled(in_.progress);
+        watch_.book("shade", stages_);
+        return out;
+    }
+
+    void report(MethodResult& result) const override {
+        for (const StageTime& stage : stages_) result.stages.push_back(stage);
+        result.setup_seconds += setup_seconds_;
+        result.device = "cpu";
+        reportCounts(result);
+        reportPlan(result);
+    }
+
+  private:
+    static FieldSamples sized(std::size_t count) {
+        FieldSamples out;
+        out.color.resize(count), out.depth.resize(count), out.normal.resize(count);
+        out.surface.resize(count), out.residual.resize(count);
+        out.evaluations.resize(count), out.iterations.resize(count);
+        return out;
+    }
+
+    static glm::dvec2 positionOf(const FieldWindow& window, std::size_t row, std::size_t column) {
+        const int k = window.per_side;
+        if (!window.positions_px.empty()) return window.positions_px[row * window.stride() + column];
+        return {window.pixels.x0 + (static_cast<double>(column) + 0.5) / k,
+                window.pixels.y0 + (static_cast<double>(row) + 0.5) / k};
+    }
+
+    /// What may be asked of tiles: positions elsewhere than in their pixels are in no tile's beam.
+    sdf::TraceSettings tileSettings(const FieldWindow& window) const {
+        sdf::TraceSettings settings = settings_.trace;
+        const int width = window.pixels.width();
+        for (std::size_t i = 0; i < window.positions_px.size(); ++i) {
+            const glm::dvec2 pixel(window.pixels.x0 + static_cast<int>(i % width),
+                                   window.pixels.y0 + static_cast<int>(i / width));
+            const glm::dvec2 within = window.positions_px[i] - pixel;
+            if (std::min(within.x, within.y) >= 0.0 && std::max(within.x, within.y) < 1.0) continue;
+            settings.prepass = settings.prune = false;
+        }
+        return settings;
+    }
+
+    void traceTiles(const FieldWindow& window, std::vector<sdf::TraceHit>& hits) {
+        const sdf::TraceSettings settings = tileSettings(window);
+        const sdf::TileSides sides = sdf::TileSides::forSamples(window.per_side);
+        const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides);
+        const PixelBox& box = window.pixels;
+        const int side = sides.top_px, x0 = tileOf(box.x0, side), x1 = tileOf(box.x1 - 1, side) + 1;
+        const int y0 = tileOf(box.y0, side), y1 = tileOf(box.y1 - 1, side) + 1;
+        const std::size_t across = static_cast<std::size_t>(x1 - x0), count = across * (y1 - y0);
+        tbb::enumerable_thread_specific<sdf::TileCounts> counts;
+        tbb::parallel_for(std::size_t(0), count, [&](std::size_t tile) {
+            if (in_.progress.cancelled()) return;
+            const int x = (x0 + static_cast<int>(tile % across)) * side;
+            const int y = (y0 + static_cast<int>(tile / across)) * side;
+            std::vector<sdf::TileRay> rays = raysOf(window, {x, y, x + side, y + side});
+            tiles.trace(x, y, rays, hits, counts.local());
+        });
+        for (const sdf::TileCounts& part : counts) counts_ += part;
+    }
+
+    /// Of a tile's pixels within the window. Rays end where a closed form's surface is, and where the convex
+    /// bound does.
+    std::vector<sdf::TileRay> raysOf(const FieldWindow& window, const PixelBox& tile) const {
+        const PixelBox& box = window.pixels;
+        const int k = window.per_side;
+        const int x0 = (std::max(tile.x0, box.x0) - box.x0) * k,
+                  x1 = (std::min(tile.x1, box.x1) - box.x0) * k;
+        const int y0 = (std::max(tile.y0, box.y0) - box.y0) * k,
+                  y1 = (std::min(tile.y1, box.y1) - box.y0) * k;
+        std::vector<sdf::TileRay> rays;
+        rays.reserve(static_cast<std::size_t>(x1 - x0) * (y1 - y0));
+        for (int row = y0; row < y1; ++row)
+            for (int column = x0; column < x1; ++column) {
+                sdf::TileRay ray;
+                ray.p_px = positionOf(window, row, column);
+                ray.index = static_cast<std::uint32_t>(row * window.stride() + column);
+                ray.ray = limited(grid_.ray(ray.p_px));
+                if (ray.ray.t_min < ray.ray.t_max) rays.push_back(ray);
+            }
+        return rays;
+    }
+
+    sdf::FieldRay limited(sdf::FieldRay ray) const {
+        sdf::SurfaceHit closed;
+        tracer_.meetAnalytic(ray, closed);
+        if (closed.hit) ray.t_max = closed.t;
+        if (!tracer_.withinBound(ray)) ray.t_max = ray.t_min;
+        return ray;
+    }
+
+    void shadeAll(const FieldWindow& window, const std::vector<sdf::TraceHit>& hits, FieldSamples& out) {
+        tbb::enumerable_thread_specific<sdf::RayCounts> counts;
+        const std::size_t stride = window.stride(), rows = window.samples() / stride;
+        tbb::parallel_for(std::size_t(0), rows, [&](std::size_t row) {
+            if (in_.progress.cancelled()) return;
+            sdf::RayCounts& own = counts.local();
+            for (std::size_t column = 0; column < stride; ++column) {
+                const sdf::FieldRay ray = grid_.ray(positionOf(window, row, column));
+                shadeOne(ray, hits[row * stride + column], own, row * stride + column, out);
+            }
+        });
+        for (const sdf::RayCounts& part : counts) ray_counts_ += part;
+    }
+
+    void shadeOne(const sdf::FieldRay& ray, const sdf::TraceHit& hit, sdf::RayCounts& counts, std::size_t i,
+                  FieldSamples& out) const {
+        sdf::SurfaceHit seen = tracer_.fieldHit(ray, hit, sign_);
+        tracer_.meetAnalytic(ray, seen);
+        out.color[i] = shader_.shade(ray, seen, counts, sign_);
+        out.evaluations[i] = hit.evaluations, out.iterations[i] = hit.iterations;
+        out.depth[i] = seen.hit ? seen.t : HUGE_VAL;
+        out.surface[i] = seen.hit ? seen.material : kNone;
+        if (!seen.hit) return;
+        const bool away = glm::dot(seen.normal_world, ray.direction_world) > 0.0;
+        out.normal[i] = glm::vec3(away ? -seen.normal_world : seen.normal_world);
+        out.residual[i] = static_cast<float>(seen.value);
+    }
+
+    void reportCounts(MethodResult& result) const {
+        auto& counts = result.counts;
+        counts["instructions_of_tape"] = tape_.size();
+        counts["rays"] = counts_.rays, counts["evaluations"] = counts_.evaluations;
+        counts["iterations"] = counts_.iterations, counts["failed_steps"] = counts_.failed;
+        counts["cones"] = counts_.cones, counts["cone_evaluations"] = counts_.cone_evaluations;
+        counts["instructions"] = counts_.instructions, counts["tape_passes"] = counts_.passes;
+        counts["tiles"] = counts_.leaf_tiles + counts_.empty_tiles;
+        counts["tiles_empty"] = counts_.empty_tiles;
+        counts["pruned_tapes"] = counts_.prune.tapes;
+        counts["prune_instructions"] = counts_.prune.instructions;
+        counts["prune_microseconds"] = static_cast<std::uint64_t>(counts_.prune.seconds * 1e6);
+        counts["shadow_rays"] = ray_counts_.shadow, counts["reflection_rays"] = ray_counts_.reflection;
+        counts["refraction_rays"] = ray_counts_.refraction;
+        counts["secondary_evaluations"] = ray_counts_.evaluations;
+    }
+
+    void reportPlan(MethodResult& result) const {
+        const sdf::TraceSettings& t = settings_.trace;
+        const bool field = tape_.size() > 0;
+        result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
+        result.plan.push_back({"prune", t.prune && field, pruneWords(field)});
+        const bool convex = t.convex && scene_.convex.has_value();
+        result.plan.push_back({"convex", convex,
+                               convex          ? "rays are traced within the scene's convex bound alone"
+                               : scene_.convex ? "switched off"
+                                               : "the scene names no convex bound"});
+        result.plan.push_back({"analytic", !scene_.analytic.empty(),
+                               fmt::format("{} shapes are met in closed form", scene_.analytic.size())});
+    }
+    std::string prepassWords(bool field) const {
+        if (!field) return "the scene has no field";
+        if (!settings_.trace.prepass) return "switched off";
+        return fmt::format("{} cones with {} evaluations; {} of {} tiles are empty", counts_.cones,
+                           counts_.cone_evaluations, counts_.empty_tiles,
+                           counts_.leaf_tiles + counts_.empty_tiles);
+    }
+    std::string pruneWords(bool field) const {
+        if (!field) return "the scene has no field";
+        if (!settings_.trace.prune) return "switched off";
+        const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
+        return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
+                           asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,
+                           counts_.prune.tapes);
+    }
+
+    const MethodInput in_;
+    const FieldSettings settings_;
+    const sdf::FieldScene& scene_;
+    Stopwatch watch_;
+    const sdf::Tape tape_;
+    const sdf::RayGrid grid_;
+    const sdf::SceneTracer tracer_;
+    const sdf::Shader shader_;
+    double sign_ = 1.0, setup_seconds_ = 0.0;
+    std::vector<StageTime> stages_;
+    sdf::TileCounts counts_;
+    sdf::RayCounts ray_counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldTracer> makeCpuFieldTracer(const MethodInput& input, const FieldSettings& settings) {
+    return std::make_unique<CpuFieldTracer>(input, settings);
+}
+
+}  // namespace edgewise

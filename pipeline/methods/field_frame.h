@@ -1,0 +1,21 @@
+// Sampling methods on SDF scenes: which rays, how their colours become pixels, what else is known of them.
+#pragma once
+
+#include <memory>
+
+#include "pipeline/field_tracer.h"
+#include "pipeline/methods/method.h"
+
+namespace edgewise {
+
+/// What traces: the CPU's maker or Vulkan's.
+using FieldTracerMaker = std::unique_ptr<FieldTracer> (*)(const MethodInput&, const FieldSettings&);
+
+/// One sample at the pixel's centre. `edge`: 1 where a neighbour within the film differs.
+MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, FieldTracerMaker make);
+
+/// K x K samples a pixel, filtered; each is shaded where it lands. `edge`: 1 where the support's differ.
+MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
+                           FieldTracerMaker make);
+
+}  // namespace edgewise
