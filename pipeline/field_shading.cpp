@@ -17,7 +17,8 @@ bool shines(const sdf::FieldScene& scene) {
 
 }  // namespace
 
-sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSettings& trace, bool emission_counts) {
+sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSettings& trace,
+                                  bool emission_counts) {
     const sdf::FieldScene& scene = *in.scene.field;
     sdf::ShadingSettings settings = shadingOf(scene, trace);
     settings.background = in.options.background;
@@ -28,9 +29,11 @@ sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSetting
 
 const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene) {
     const std::string who = fmt::format("method '{}'", method);
-    if (!scene.field) throw InputError(who, fmt::format("needs an SDF scene, and '{}' holds triangles", scene.source));
+    if (!scene.field)
+        throw InputError(who, fmt::format("needs an SDF scene, and '{}' holds triangles", scene.source));
     if (scene.field->glsl)
-        throw InputError(who, fmt::format("runs on the CPU, and '{}' is GLSL, which Vulkan alone evaluates", scene.source));
+        throw InputError(who, fmt::format("runs on the CPU, and '{}' is GLSL, which Vulkan alone evaluates",
+                                          scene.source));
     return *scene.field;
 }
 

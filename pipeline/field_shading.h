@@ -6,9 +6,11 @@
 
 namespace edgewise {
 
-/// The scene's lights and ambient light, or pipeline/lighting.h's rig where it has neither lights nor, for paths
+/// The scene's lights and ambient light, or pipeline/lighting.h's rig where it has neither lights nor, for
+/// paths
 /// (`emission_counts`), anything that shines; the options' background. The rig throws no shadows.
-sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSettings& trace, bool emission_counts);
+sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSettings& trace,
+                                  bool emission_counts);
 
 /// The scene's field. Throws InputError, for the method of that name, for scenes of triangles and of GLSL.
 const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene);

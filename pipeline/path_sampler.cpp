@@ -11,7 +11,8 @@ glm::dvec2 PixelPathSampler::point(std::uint32_t index) const {
     const std::uint64_t key = mixed(key_ + index);
     const std::uint32_t order = owenScrambled(sample_, key);
     const glm::u32vec2 plain = sobolPoint(order);
-    return glm::dvec2(owenScrambled(plain.x, mixed(key + 1)), owenScrambled(plain.y, mixed(key + 2))) * 0x1p-32;
+    return glm::dvec2(owenScrambled(plain.x, mixed(key + 1)), owenScrambled(plain.y, mixed(key + 2))) *
+           0x1p-32;
 }
 
 }  // namespace edgewise

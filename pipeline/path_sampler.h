@@ -8,9 +8,9 @@
 
 namespace edgewise {
 
-/// Every pair of coordinates is the (0, 2)-sequence of pipeline/sobol.h in an order and under a scrambling of its own
-/// (both nested uniform, so that the first 2^k samples take an aligned block of the sequence and are a net in each pair), by pixel and seed alone:
-/// threads and crops do not show.
+/// Every pair of coordinates is the (0, 2)-sequence of pipeline/sobol.h in an order and under a scrambling of
+/// its own (both nested uniform, so that the first 2^k samples take an aligned block of the sequence and are
+/// a net in each pair), by pixel and seed alone: threads and crops do not show.
 class PixelPathSampler : public sdf::PathSampler {
   public:
     PixelPathSampler(int x, int y, std::uint64_t seed);

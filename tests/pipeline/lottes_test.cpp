@@ -28,8 +28,8 @@ FieldPicture slantedEdge(int side) {
 FieldPicture wire(int side, double diameter) {
     FieldPicture picture = test::flatPicture(side, side);
     picture.field->materials = {test::unlitWhite()};
-    const auto rod = picture.field->tree.add(
-        sdf::Kind::kCapsule, {-100, 0, 0, 100, 0, 0, 0.5 * diameter}, {}, 0);
+    const auto rod =
+        picture.field->tree.add(sdf::Kind::kCapsule, {-100, 0, 0, 100, 0, 0, 0.5 * diameter}, {}, 0);
     picture.field->tree.root = picture.field->tree.add(sdf::Kind::kRotate, {0, 0, 1, 11}, {rod});
     return picture;
 }
@@ -40,8 +40,8 @@ double rmse(const ImageBuffer& a, const ImageBuffer& b) {
     return std::sqrt(sum / static_cast<double>(a.rgba.size()));
 }
 
-/// The largest difference between a corner box's share of a pixel's first samples and its area, over a lattice of
-/// corners; the mean over pixels.
+/// The largest difference between a corner box's share of a pixel's first samples and its area, over a
+/// lattice of corners; the mean over pixels.
 double discrepancy(int frames) {
     double sum = 0.0;
     for (int x = 0; x < 8; ++x) {
@@ -87,11 +87,14 @@ TEST(Lottes, TheTemporalDeviationFallsWithTheFrames) {
         for (picture.options.seed = 0; picture.options.seed < 4; ++picture.options.seed)
             runs.push_back(picture.made("lottes:grain=0"));
         double truth = 0.0;  // two means of independent starts differ by sqrt 2 of their own deviation
-        for (int i = 0; i < 4; ++i) truth += rmse(runs[i].image, runs[(i + 1) % 4].image) / 4.0 / std::sqrt(2.0);
+        for (int i = 0; i < 4; ++i)
+            truth += rmse(runs[i].image, runs[(i + 1) % 4].image) / 4.0 / std::sqrt(2.0);
         const double one = runs[0].counts.at("temporal_deviation_micro") * 1e-6;
         const double mean = runs[0].counts.at("temporal_deviation_of_mean_micro") * 1e-6;
-        std::printf("%2d frames: deviation from frame to frame %.4f, of the mean %.4f (by even and odd frames %.4f)\n",
-                    frames, one, truth, mean);
+        std::printf(
+            "%2d frames: deviation from frame to frame %.4f, of the mean %.4f (by even and odd frames "
+            "%.4f)\n",
+            frames, one, truth, mean);
         EXPECT_GT(one, 0.001);
         EXPECT_LT(truth, 0.75 * last);
         EXPECT_LT(truth, one / std::sqrt(frames));  // what random rays would have
@@ -104,7 +107,8 @@ TEST(Lottes, ItsBiasIsCoverageAndF) {
     picture.options.frames = 64;
     const ImageBuffer lottes = picture.made("lottes:grain=0").image;
     const ImageBuffer f = picture.made("lottes:grain=0,coverage=off,distance=0.05").image;
-    // The edge's exact distance from each pixel's centre gives the box: its area on the white side, by quadrature.
+    // The edge's exact distance from each pixel's centre gives the box: its area on the white side, by
+    // quadrature.
     ImageBuffer box(picture.film.crop);
     const double angle = 17.0 * M_PI / 180.0;
     for (int y = 0; y < 24; ++y)
@@ -117,8 +121,8 @@ TEST(Lottes, ItsBiasIsCoverageAndF) {
                 }
             box.rgba[box.index(x, y)] = glm::dvec4(sum / 4096.0);
         }
-    std::printf("rmse: lottes - box %.4f, lottes - F %.4f, F - box %.4f\n", rmse(lottes, box), rmse(lottes, f),
-                rmse(f, box));
+    std::printf("rmse: lottes - box %.4f, lottes - F %.4f, F - box %.4f\n", rmse(lottes, box),
+                rmse(lottes, f), rmse(f, box));
     double dilation = 0.0;
     for (std::size_t i = 0; i < box.rgba.size(); ++i) dilation += lottes.rgba[i].r - box.rgba[i].r;
     std::printf("the edge lies %.3f px outside of itself\n", dilation / (24.0 / std::cos(angle)) * 1.0);
@@ -146,9 +150,9 @@ Spread energySpread(const std::string& method, int frames) {
 
 TEST(Lottes, AThinWiresEnergyHardlyDependsOnTheShift) {
     const double ideal = 0.2 * 20.0 / std::cos(11.0 * M_PI / 180.0);
-    for (const char* method : {"lottes:grain=0,distance=0.5", "lottes:grain=0,distance=0.75",
-                               "lottes:grain=0,distance=1", "lottes:grain=0,distance=1,scale=1",
-                               "lottes:grain=0,distance=1,weights=disk"})
+    for (const char* method :
+         {"lottes:grain=0,distance=0.5", "lottes:grain=0,distance=0.75", "lottes:grain=0,distance=1",
+          "lottes:grain=0,distance=1,scale=1", "lottes:grain=0,distance=1,weights=disk"})
         for (const int frames : {1, 16}) {
             const Spread s = energySpread(method, frames);
             std::printf("%-40s %2d frames: spread %.1f %%, energy %.2f of the wire's\n", method, frames,
@@ -168,8 +172,7 @@ TEST(Lottes, ThreadsAndCropsDoNotShow) {
     picture.film.crop = {5, 7, 17, 16};
     const ImageBuffer part = picture.made("lottes").image;
     for (int y = 7; y < 16; ++y)
-        for (int x = 5; x < 17; ++x)
-            EXPECT_EQ(part.rgba[part.index(x, y)], whole.rgba[whole.index(x, y)]);
+        for (int x = 5; x < 17; ++x) EXPECT_EQ(part.rgba[part.index(x, y)], whole.rgba[whole.index(x, y)]);
     picture.options.seed = 1;
     EXPECT_NE(picture.made("lottes").image.rgba, part.rgba);
 }

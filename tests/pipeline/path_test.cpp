@@ -64,8 +64,8 @@ TEST(Path, AConvexBodyUnderAnEvenSkyIsItsAlbedo) {
     EXPECT_EQ(result.counts.at("rays_primary"), 16u * 256);
     double alpha = 0.0;
     for (const glm::dvec4& p : result.image.rgba) alpha += p.a;
-    // The disk's area, as far as the hit's threshold inflates it; 16 samples in each of the pixels along its rim are off
-    // by less than random ones.
+    // The disk's area, as far as the hit's threshold inflates it; 16 samples in each of the pixels along its
+    // rim are off by less than random ones.
     const double radius = 5.0 + 0.5 * sdf::TraceSettings{}.threshold, rim_px = 2.0 * M_PI * radius;
     EXPECT_NEAR(alpha, M_PI * radius * radius, 4.0 * std::sqrt(rim_px * 0.25 / 16.0));
 }
@@ -77,8 +77,7 @@ TEST(Path, ThreadsAndCropsDoNotShow) {
     picture.film.crop = {2, 3, 9, 15};
     const ImageBuffer part = picture.made("path:3").image;
     for (int y = 3; y < 15; ++y)
-        for (int x = 2; x < 9; ++x)
-            EXPECT_EQ(part.rgba[part.index(x, y)], whole.rgba[whole.index(x, y)]);
+        for (int x = 2; x < 9; ++x) EXPECT_EQ(part.rgba[part.index(x, y)], whole.rgba[whole.index(x, y)]);
 }
 
 TEST(FieldShading, TheRigIsFixedToTheCamera) {
