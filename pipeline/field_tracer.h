@@ -13,16 +13,8 @@
 
 namespace edgewise {
 
-enum class FieldIntegrator : unsigned char {
-    kDirect,  ///< the lights that reach the hit; reflection and refraction by Whitted where materials have
-              ///< them
-    kPath     ///< path traced
-};
-
 struct FieldSettings {
     sdf::TraceSettings trace;
-    FieldIntegrator integrator = FieldIntegrator::kDirect;
-    int path_samples = 1;
     std::uint64_t seed = 0;
 };
 

@@ -5,34 +5,16 @@
 
 #include <cmath>
 
-#include "pipeline/error.h"
 #include "pipeline/field_rays.h"
+#include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
 #include "pipeline/methods/stopwatch.h"
-#include "sdf/scene_error.h"
 #include "sdf/scene_trace.h"
 #include "sdf/shader.h"
 #include "sdf/tile_trace.h"
 
 namespace edgewise {
 namespace {
-
-sdf::Tape lowered(const sdf::FieldScene& scene) {
-    if (scene.glsl) throw InputError(scene.source, "is GLSL, which runs through Vulkan alone");
-    if (scene.tree.empty()) return {};
-    try {
-        return sdf::lower(scene.tree);
-    } catch (const sdf::SceneError& error) {
-        throw InputError(scene.source + ": " + error.element, error.rule);
-    }
-}
-
-sdf::ShadingSettings shadingSettings(const MethodInput& in, const sdf::TraceSettings& trace) {
-    sdf::ShadingSettings settings = sdf::shadingOf(*in.scene.field, trace);
-    settings.background = in.options.background;
-    if (settings.lights.empty()) addDefaultRig(in.camera, settings);
-    return settings;
-}
 
 int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
@@ -44,12 +26,10 @@ class CpuFieldTracer : public FieldTracer {
         : in_(in),
           settings_(settings),
           scene_(*in.scene.field),
-          tape_(lowered(scene_)),
+          tape_(loweredTree(requireTree("tracing", in.scene))),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
           tracer_(scene_, tape_, settings.trace),
-          shader_(shadingSettings(in, settings.trace), tracer_) {
-        if (settings.integrator == FieldIntegrator::kPath)
-            throw InputError("path", "is not in this build's CPU tracer");
+          shader_(fieldShading(in, settings.trace, false), tracer_) {
         sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
         setup_seconds_ = watch_.lap();
     }

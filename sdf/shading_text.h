@@ -1,5 +1,5 @@
-// shaders/shared/sdf_shading.glsl and sdf_path.glsl as C++: double in `shading`, and float as GLSL has it in
-// `shading_float`.
+// shaders/shared/sdf_shading.glsl, sdf_path.glsl and sdf_lottes.glsl as C++: double in `shading`, and float as
+// GLSL has it in `shading_float`.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -30,6 +30,8 @@ using glm::dot, glm::length;
 #include "shaders/shared/sdf_shading.glsl"
 
 #include "shaders/shared/sdf_path.glsl"
+
+#include "shaders/shared/sdf_lottes.glsl"
 }  // namespace shading
 namespace shading_float {
 using real = float;
@@ -38,6 +40,8 @@ using glm::dot, glm::length;
 #include "shaders/shared/sdf_shading.glsl"
 
 #include "shaders/shared/sdf_path.glsl"
+
+#include "shaders/shared/sdf_lottes.glsl"
 }  // namespace shading_float
 
 }  // namespace edgewise::sdf

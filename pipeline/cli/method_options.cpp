@@ -21,6 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kDevices{"auto", "cpu", "vulkan"};
 constexpr std::array<std::string_view, 2> kPrecisions{"fp64", "fp32"};
 constexpr int kMaxThreads = 4096;
+constexpr int kMaxFrames = 1 << 20;
 constexpr int kMaxShadingSamples = 4096;
 constexpr std::int64_t kMaxMemoryMib = std::int64_t{1} << 32;
 
@@ -82,6 +83,7 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
         .add_option("--memory", arguments.memory, "ceiling for the buffers, the image is tiled to fit [1024]")
         ->type_name("MIB");
     command.add_option("--seed", arguments.seed, "of stochastic methods [0]")->type_name("N");
+    command.add_option("--frames", arguments.frames, "of temporal methods; OUT is their mean [1]")->type_name("N");
     command
         .add_option(
             "--no-skip", arguments.no_skip,
@@ -110,6 +112,8 @@ RenderOptions readMethodOptions(const MethodArguments& arguments) {
     if (arguments.seed)
         options.seed = static_cast<std::uint64_t>(
             parseInteger("--seed", *arguments.seed, 0, std::numeric_limits<std::int64_t>::max()));
+    if (arguments.frames)
+        options.frames = static_cast<int>(parseInteger("--frames", *arguments.frames, 1, kMaxFrames));
     return options;
 }
 

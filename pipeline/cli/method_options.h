@@ -17,11 +17,11 @@ struct MethodArguments {
     std::string device = "auto";
     std::string precision = "fp64";
     std::string shading = "closest";
-    std::optional<std::string> background, threads, memory, seed;
+    std::optional<std::string> background, threads, memory, seed, frames;
     std::vector<std::string> no_skip;
 };
 
-/// Adds --device, --precision, --shading, --background, --threads, --memory, --seed, --no-skip.
+/// Adds --device, --precision, --shading, --background, --threads, --memory, --seed, --frames, --no-skip.
 void addMethodOptions(CLI::App& command, MethodArguments& arguments);
 
 RenderOptions readMethodOptions(const MethodArguments& arguments);

@@ -117,6 +117,7 @@ class StudyReader {
         takeMaking("threads", &MethodArguments::threads);
         takeMaking("memory", &MethodArguments::memory);
         takeMaking("seed", &MethodArguments::seed);
+        takeMaking("frames", &MethodArguments::frames);
         for (const Entry& name : file_.list("no_skip"))
             check(name.line, "no_skip", [&] {
                 MethodArguments alone;

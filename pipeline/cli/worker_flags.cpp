@@ -28,6 +28,7 @@ std::vector<std::string> workerFlags(const PictureArguments& picture, const Filt
     flags.add("--shading", making.shading), flags.add("--background", making.background);
     flags.add("--threads", making.threads), flags.add("--memory", making.memory),
         flags.add("--seed", making.seed);
+    flags.add("--frames", making.frames);
     for (const std::string& stage : making.no_skip) flags.add("--no-skip", stage);
     flags.add("--method", method);
     return flags.words;

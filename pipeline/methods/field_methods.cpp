@@ -98,7 +98,7 @@ MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const 
         throw InputError(fmt::format("method '{}'", spec.typed),
                          fmt::format("needs triangles, and {} is an SDF scene", in.scene.source));
     const DeviceChoice choice = choiceOf(spec, in);
-    const DeviceDecision decision = decideDevice(choice, kVulkanTracer != nullptr);
+    const DeviceDecision decision = decideDevice(choice, kVulkanTracer != nullptr && !entry.field_on_cpu);
     const bool asked = choice == DeviceChoice::kVulkan;
     tbb::task_arena arena(in.options.threads > 0 ? in.options.threads : tbb::task_arena::automatic);
     MethodResult result;

@@ -45,6 +45,7 @@ struct RenderOptions {
     std::size_t memory_mib = 1024;
     ShadingChoice shading;
     std::uint64_t seed = 0;
+    int frames = 1;  ///< of temporal methods: the picture is their mean
     std::set<std::string> no_skip;
     std::set<Aov> aovs;
     std::optional<std::filesystem::path> dump_dir;
@@ -150,6 +151,7 @@ struct MethodEntry {
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone
     /// On SDF scenes; nullptr: it needs triangles.
     MethodResult (*run_field)(const MethodSpec&, const MethodInput&, FieldTracerMaker) = nullptr;
+    bool field_on_cpu = false;  ///< run_field makes no use of a device's tracer
 };
 
 }  // namespace edgewise

@@ -28,6 +28,8 @@ MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  /
 
 // On SDF scenes.
 MethodResult traceNone(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceLottes(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult tracePath(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
 MethodResult traceSphere(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
 MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
 MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);

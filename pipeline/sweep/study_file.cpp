@@ -22,7 +22,8 @@ const std::map<std::string, Type> kOptions{{"reference", Type::kText},    {"runs
                                            {"budget", Type::kNumber},     {"device", Type::kText},
                                            {"precision", Type::kText},    {"shading", Type::kText},
                                            {"background", Type::kTriple}, {"threads", Type::kInteger},
-                                           {"memory", Type::kInteger},    {"seed", Type::kInteger}};
+                                           {"memory", Type::kInteger},    {"seed", Type::kInteger},
+                                           {"frames", Type::kInteger}};
 const std::map<std::string, Type> kFilterKeys{
     {"name", Type::kText}, {"radius", Type::kNumber}, {"sigma", Type::kNumber}};
 const std::map<std::string, Type> kCameraKeys{
