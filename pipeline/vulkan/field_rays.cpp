@@ -64,8 +64,7 @@ GpuCone coneOf(std::span<const GpuRay> rays) {
 }
 
 Buffer tableOf(const Device& device, const sdf::GlslField& field) {
-    return bufferOf(device, "field table",
-                    field.table.empty() ? std::vector<std::uint32_t>{0} : field.table);
+    return bufferOf(device, "field table", field.table.empty() ? std::vector<std::uint32_t>{0} : field.table);
 }
 
 /// A buffer of at least so many bytes: the one there is, or a new one.
@@ -84,7 +83,7 @@ std::vector<std::uint32_t> everyRow(const sdf::GlslField& field) {
 }
 
 std::size_t listBytes(const FieldShaders& shaders, std::size_t tiles) {
-    return tiles * kFieldSegments * shaders.list_stride * sizeof(std::uint32_t);
+    return tiles * shaders.tile_stride * sizeof(std::uint32_t);
 }
 
 }  // namespace
@@ -107,8 +106,8 @@ FieldRays::FieldRays(const Device& device, const FieldShaders& shaders, const sd
       finish_(device, {"field_finish", shaders.finish}, kBuffers, sizeof(Push)),
       table_(tableOf(device, shaders.field)),
       flags_(device, "field flags", 8 * sizeof(std::uint32_t)) {
-    // A tile's segment is one evaluation and its lists; a hit's last turn two evaluations.
-    if (2 * shaders.turnsOfEvaluation() + 256 > device.traits().loop_turns)
+    // A hit's last turn takes two evaluations; a coarse segment one and those of its fine ones' short lists.
+    if (2 * shaders.turnsOfEvaluation() + 8192 > device.traits().loop_turns)
         throw DeviceError(fmt::format("{} takes {} turns of loops; a field of {} like children needs more",
                                       device.traits().name, device.traits().loop_turns,
                                       shaders.field.rows()));
@@ -125,7 +124,8 @@ std::size_t FieldRays::most(const Device& device, const FieldShaders& shaders, s
     const std::size_t tile = kTileRays * (sizeof(GpuRay) + sizeof(GpuRayState) + sizeof(GpuHit)) +
                              sizeof(GpuCone) + sizeof(GpuTile) + lists;
     std::size_t tiles = std::min(bytes / tile, largest / (kTileRays * sizeof(GpuRayState)));
-    if (lists > 0) tiles = std::min(tiles, (largest - std::min(largest, everyRow(shaders.field).size() * 4)) / lists);
+    if (lists > 0)
+        tiles = std::min(tiles, (largest - std::min(largest, everyRow(shaders.field).size() * 4)) / lists);
     return std::max<std::size_t>(tiles, 1) * kTileRays;
 }
 
@@ -155,17 +155,20 @@ void FieldRays::runPass(const std::string& name, ComputePass& pass, Push push, s
     pass.forgetSets();
     ++counts_.dispatches;
     const auto found = std::ranges::find(times_, name, &PassTime::name);
-    if (found == times_.end()) times_.push_back({name, seconds});
-    else found->seconds += seconds;
+    if (found == times_.end())
+        times_.push_back({name, seconds});
+    else
+        found->seconds += seconds;
     checkFlags();
 }
 
 void FieldRays::checkFlags() const {
     const auto flags = flags_.read<std::uint32_t>(8);
     if (flags[4] != 0)
-        throw FailureError("map", fmt::format("line {}: a loop without end: the loops of one call take more than "
-                                              "{} turns",
-                                              flags[4], kUserTurns));
+        throw FailureError("map",
+                           fmt::format("line {}: a loop without end: the loops of one call take more than "
+                                       "{} turns",
+                                       flags[4], kUserTurns));
     if (flags[0] != 0)
         throw FailureError("map", fmt::format("the distance at ({:.9g}, {:.9g}, {:.9g}) is not a number",
                                               std::bit_cast<float>(flags[1]), std::bit_cast<float>(flags[2]),
@@ -205,14 +208,19 @@ void FieldRays::traceCones(std::uint32_t tiles, const glm::dvec4& bounds,
 }
 
 void FieldRays::makeLists(std::uint32_t tiles) {
-    const std::uint32_t lists = tiles * kFieldSegments;
+    const std::uint32_t lists = tiles * kFieldCoarseSegments;
     runPass("prune", *lists_, {lists, 0, 0, 0, 0}, lists);
     const std::size_t begin = everyRow(shaders_.field).size();
-    const auto items = items_->read<std::uint32_t>(begin + std::size_t{lists} * shaders_.list_stride);
+    const auto items = items_->read<std::uint32_t>(begin + std::size_t{tiles} * shaders_.tile_stride);
     const auto table = tiles_->read<GpuTile>(tiles);
-    for (std::uint32_t i = 0; i < lists; ++i) {
-        if (!(table[i / kFieldSegments].list_end > table[i / kFieldSegments].list_begin)) continue;
-        std::size_t at = begin + std::size_t{i} * shaders_.list_stride;
+    for (std::uint32_t tile = 0; tile < tiles; ++tile)
+        if (table[tile].list_end > table[tile].list_begin)
+            countLists(items.subspan(begin + std::size_t{tile} * shaders_.tile_stride));
+}
+
+void FieldRays::countLists(std::span<const std::uint32_t> items) {
+    for (std::uint32_t segment = 0; segment < kFieldSegments; ++segment) {
+        std::size_t at = std::size_t{segment} * shaders_.fine_stride;
         for (const sdf::GlslBatch& batch : shaders_.field.batches) {
             const bool whole = items[at] == 0xffffffffu;
             ++counts_.lists;

@@ -77,6 +77,7 @@ class FieldRays {
     std::uint32_t activeRays() const;
     void traceCones(std::uint32_t tiles, const glm::dvec4& bounds, const std::function<bool()>& cancelled);
     void makeLists(std::uint32_t tiles);
+    void countLists(std::span<const std::uint32_t> items);  ///< of a tile
     void countAnswers(std::span<const GpuRayState> states);
     std::uint32_t evaluationsADispatch() const;
 

@@ -42,23 +42,28 @@ std::string arrayText(std::string_view name, std::size_t count, const Each& each
     return fmt::format("const uint {}[{}] = uint[]({});\n", name, count, list);
 }
 
-std::uint32_t capacityOf(const sdf::GlslBatch& batch) {
-    return std::min(batch.rows, kFieldListRows);
-}
-
 std::string batchesText(FieldShaders& made) {
     const std::vector<sdf::GlslBatch>& batches = made.field.batches;
-    std::vector<std::uint32_t> all{0}, lists{0};
-    for (const sdf::GlslBatch& batch : batches)
-        all.push_back(all.back() + batch.rows), lists.push_back(lists.back() + 1 + capacityOf(batch));
-    made.list_stride = lists.back();
+    const auto fineRoom = [&](std::size_t i) { return std::min(batches[i].rows, kFieldListRows); };
+    const auto coarseRoom = [&](std::size_t i) { return std::min(batches[i].rows, kFieldCoarseRows); };
+    std::vector<std::uint32_t> all{0}, fine{0}, coarse{0};
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        all.push_back(all.back() + batches[i].rows);
+        fine.push_back(fine.back() + 1 + fineRoom(i)), coarse.push_back(coarse.back() + 1 + coarseRoom(i));
+    }
+    made.fine_stride = fine.back();
+    made.tile_stride = kFieldSegments * fine.back() + kFieldCoarseSegments * coarse.back();
     return fmt::format(
-               "const uint ew_batches = {}u, ew_segments = {}u, ew_list_stride = {}u;\nuvec2 ew_range[{}];\n",
-               batches.size(), kFieldSegments, made.list_stride, batches.size()) +
+               "const uint ew_batches = {}u, ew_segments = {}u, ew_coarse = {}u;\n"
+               "const uint ew_fine_stride = {}u, ew_coarse_stride = {}u, ew_tile_stride = {}u;\n"
+               "uvec2 ew_range[{}];\n",
+               batches.size(), kFieldSegments, kFieldCoarseSegments, fine.back(), coarse.back(),
+               made.tile_stride, batches.size()) +
            arrayText("ew_all_begin", all.size(), [&](std::size_t i) { return all[i]; }) +
-           arrayText("ew_list_begin", lists.size(), [&](std::size_t i) { return lists[i]; }) +
-           arrayText("ew_list_capacity", batches.size(),
-                     [&](std::size_t i) { return capacityOf(batches[i]); });
+           arrayText("ew_fine_begin", fine.size(), [&](std::size_t i) { return fine[i]; }) +
+           arrayText("ew_coarse_begin", coarse.size(), [&](std::size_t i) { return coarse[i]; }) +
+           arrayText("ew_fine_room", batches.size(), fineRoom) +
+           arrayText("ew_coarse_room", batches.size(), coarseRoom);
 }
 
 }  // namespace

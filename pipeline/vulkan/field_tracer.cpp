@@ -58,6 +58,7 @@ class VulkanFieldTracer : public FieldTracer {
         result.counts["dispatches"] += counts.dispatches;
         result.counts["listed_rows"] += counts.list_rows;
         result.counts["lists"] += counts.lists;
+        result.counts["long_lists"] += counts.long_lists;
         addPlan(result);
     }
 
@@ -70,16 +71,16 @@ class VulkanFieldTracer : public FieldTracer {
         const glm::dvec3 eye(glm::inverse(input_.camera.camera_from_world)[3]);
         const double farthest = glm::distance(eye, glm::dvec3(around)) + around.w;
         const Camera& camera = input_.camera.camera;
-        const double pixel = camera.perspective
-                                 ? farthest * std::tan(0.5 * camera.yfov) / input_.film.height
-                                 : camera.ymag / input_.film.height;
+        const double pixel = camera.perspective ? farthest * std::tan(0.5 * camera.yfov) / input_.film.height
+                                                : camera.ymag / input_.film.height;
         const double level = shaders_.lipschitz * std::max(1.0, settings_.trace.threshold) * pixel * 2.0;
         return sphereAround(levelBox(scene_.tree, scene_.tree.root, level), 1e-5 * farthest);
     }
 
     FieldSamples traceBands(const FieldWindow& window) {
         FieldSamples samples;
-        const std::size_t stride = window.stride(), rows = window.samples() / std::max<std::size_t>(stride, 1);
+        const std::size_t stride = window.stride(),
+                          rows = window.samples() / std::max<std::size_t>(stride, 1);
         resize(samples, window.samples());
         // A quarter of --memory for the device's buffers: the picture and the samples have the rest.
         const std::size_t most = FieldRays::most(*device_, shaders_, (input_.options.memory_mib << 20) / 4);
@@ -123,8 +124,8 @@ class VulkanFieldTracer : public FieldTracer {
         const glm::dvec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
         samples.depth[at] = hit.t, samples.normal[at] = normal;
         samples.residual[at] = static_cast<float>(hit.value * shaders_.lipschitz);
-        samples.surface[at] = std::min<std::uint32_t>(
-            hit.material, static_cast<std::uint32_t>(scene_.materials.size()) - 1);
+        samples.surface[at] =
+            std::min<std::uint32_t>(hit.material, static_cast<std::uint32_t>(scene_.materials.size()) - 1);
         const glm::dvec3 p = glm::dvec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
                              double(hit.t) * glm::dvec3(ray.direction[0], ray.direction[1], ray.direction[2]);
         samples.color[at] = glm::dvec4(shade(hit, samples.surface[at], p, normal), 1.0);
@@ -132,8 +133,8 @@ class VulkanFieldTracer : public FieldTracer {
 
     glm::dvec3 shade(const GpuHit& hit, std::uint32_t index, const glm::dvec3& p, const glm::dvec3& n) const {
         const sdf::SurfaceMaterial& material = scene_.materials[index];
-        const glm::dvec3 color = shaders_.user_albedo ? glm::dvec3(hit.color[0], hit.color[1], hit.color[2])
-                                                      : material.color;
+        const glm::dvec3 color =
+            shaders_.user_albedo ? glm::dvec3(hit.color[0], hit.color[1], hit.color[2]) : material.color;
         if (material.shading == sdf::SurfaceMaterial::Shading::kUnlit) return color + material.emission;
         const glm::dvec3 p_eye(input_.camera.camera_from_world * glm::dvec4(p, 1.0));
         const glm::dvec3 n_eye = glm::dmat3(input_.camera.camera_from_world) * n;
@@ -147,12 +148,13 @@ class VulkanFieldTracer : public FieldTracer {
 
     void addPlan(MethodResult& result) const {
         const FieldCounts& counts = rays_->counts();
-        result.plan.push_back({"prepass", settings_.trace.prepass,
-                               settings_.trace.prepass
-                                   ? fmt::format("cones of {} tiles of 8x8 samples took {} evaluations; {} tiles "
-                                                 "are empty",
-                                                 counts.tiles, counts.cone_evaluations, counts.empty_tiles)
-                                   : std::string("switched off")});
+        result.plan.push_back(
+            {"prepass", settings_.trace.prepass,
+             settings_.trace.prepass
+                 ? fmt::format("cones of {} tiles of 8x8 samples took {} evaluations; {} tiles "
+                               "are empty",
+                               counts.tiles, counts.cone_evaluations, counts.empty_tiles)
+                 : std::string("switched off")});
         const bool lists = !shaders_.prune.empty();
         result.plan.push_back(
             {"prune", lists,

@@ -26,10 +26,13 @@ const Names kStorage{"uniform", "in", "out", "varying", "attribute", "flat", "sm
 }
 
 [[noreturn]] void failAt(const std::string& file, const GlslError& error) {
-    std::string why = error.what();
-    why.erase(0, why.find_first_not_of(' '));
-    if (why.starts_with("'' : ")) why.erase(0, 5);
-    failAt(file, error.line, why);
+    const auto trimmed = [](std::string_view text) {
+        const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
+        return text.substr(first, text.find_last_not_of(" :") + 1 - first);
+    };
+    std::string_view why = trimmed(error.what());
+    if (why.starts_with("''")) why = trimmed(why.substr(why.find(':') + 1));
+    failAt(file, error.line, std::string(why));
 }
 
 /// Without #version, which must come first and is ours, and #extension, which must not come later.
@@ -304,7 +307,8 @@ std::vector<std::uint32_t> compileWithUserGlsl(const std::string& shader, const 
     try {
         return compileGlsl(shader);
     } catch (const GlslError& error) {
-        if (error.source == kUserSource) failAt(file, error);
+        // What is found when all is linked (recursion) has no place; our own text has none of it.
+        if (error.source == kUserSource || error.line == 0) failAt(file, error);
         throw FailureError(file, fmt::format("the shader around it does not compile (line {}): {}",
                                              error.line, error.what()));
     }

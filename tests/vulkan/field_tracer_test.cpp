@@ -59,9 +59,9 @@ struct Setting {
 };
 
 void addSphereMinusBox(sdf::Tree& tree) {
-    const std::uint32_t sphere = tree.add(Kind::kSphere, {1.0}, {}, 0), box = tree.add(Kind::kBox, {1, 1, 1}, {}, 0);
-    tree.root = tree.add(Kind::kDifference, {},
-                         {sphere, tree.add(Kind::kTranslate, {0.6, 0.6, 0.6}, {box})});
+    const std::uint32_t sphere = tree.add(Kind::kSphere, {1.0}, {}, 0),
+                        box = tree.add(Kind::kBox, {1, 1, 1}, {}, 0);
+    tree.root = tree.add(Kind::kDifference, {}, {sphere, tree.add(Kind::kTranslate, {0.6, 0.6, 0.6}, {box})});
 }
 
 void addSpheres(sdf::Tree& tree, int count, double radius) {
@@ -97,8 +97,9 @@ TEST_F(FieldOnDevice, ASphereIsWhereItsEquationSays) {
     const FieldSamples samples = s.trace({});
     std::size_t edge = 0;
     for (std::size_t i = 0; i < samples.depth.size(); ++i) {
-        const glm::dvec3 d = glm::normalize(glm::dvec3((i % 64 + 0.5 - 32.0) / 32.0 * std::tan(M_PI / 8),
-                                                       (32.0 - i / 64 - 0.5) / 32.0 * std::tan(M_PI / 8), -1.0));
+        const glm::dvec3 d =
+            glm::normalize(glm::dvec3((i % 64 + 0.5 - 32.0) / 32.0 * std::tan(M_PI / 8),
+                                      (32.0 - i / 64 - 0.5) / 32.0 * std::tan(M_PI / 8), -1.0));
         const glm::dvec3 o(0, 0, 4);
         const double b = glm::dot(o, d), left = b * b - (16.0 - 1.0);
         const double pixel = std::tan(M_PI / 8) / 64.0 * 4.0;
@@ -208,12 +209,14 @@ FieldSamples traceMap(const std::string& text, int size = 32) {
 TEST_F(FieldOnDevice, RawGlslAsPublished) {
     const FieldSamples samples = traceMap(
         "#version 300 es\n#ifdef GL_ES\nprecision highp float;\n#endif\nuniform float iTime;\n"
-        "uniform sampler2D iChannel0;\nout vec4 fragColor;\n#define R(p, a) p = cos(a) * p + sin(a) * vec2(p.y, -p.x)\n"
+        "uniform sampler2D iChannel0;\nout vec4 fragColor;\n#define R(p, a) p = cos(a) * p + sin(a) * "
+        "vec2(p.y, -p.x)\n"
         "#define LOOP(n) for (int i = 0; i < n; i++)\nconst int N = 3;\nfloat ew(float x) { return x; }\n"
         "float opSmooth(float a, float b, float k) { float h = clamp(.5 + .5*(b - a)/k, 0., 1.);\n"
         " return mix(b, a, h) - k*h*(1. - h); }\n"
         "float fieldsAt(vec3 p) { return length(p) - 1.; }\n"
-        "float map(in vec3 pos)\n{\n  vec3 q = mod(pos + 1e3 * 2., 2e3); q = pos;\n  R(q.xz, iTime);\n  float d = fieldsAt(q);\n"
+        "float map(in vec3 pos)\n{\n  vec3 q = mod(pos + 1e3 * 2., 2e3); q = pos;\n  R(q.xz, iTime);\n  "
+        "float d = fieldsAt(q);\n"
         "  LOOP(N) d = opSmooth(d, length(q - vec3(float(i) * .1, 1., 0.)) - .2, .1);\n"
         "  int n = 0; while (n < 3) ++n; do n--; while (n > 0);\n  return ew(d);\n}\n"
         "vec3 albedo(vec3 p, vec3 n) { return vec3(1, 0, 0); }\n"
@@ -230,31 +233,39 @@ TEST_F(FieldOnDevice, WhatIsWrongWithRawGlslIsOneLine) {
     EXPECT_EQ(said("float mop(vec3 p) { return 1.0; }"), "some.map.glsl: there is no `float map(vec3 p)`");
     EXPECT_EQ(said("\nvec2 map(vec3 p) { return vec2(1.0); }"),
               "some.map.glsl: line 2: map is not `float map(vec3 p)`");
-    EXPECT_EQ(said("// a comment\nfloat map(vec3 p) {\n  return length(q) - 1.0;\n}").find(
-                  "some.map.glsl: line 3: 'q' : undeclared identifier"), 0u);
-    for (const char* broken : {"float map(vec3 p) { return 1.0 }", "float map(vec3 p) { return length(p;", "}{",
-                               "float map(vec3 p) {", "#if\nfloat map(vec3 p) { return 1.0; }",
-                               "float map(vec3 p);", "#error no\nfloat map(vec3 p) { return 1.; }",
-                               "float map(vec3 p) { return map(p); }",
-                               "float map(vec3 p) { return texture(iChannel0, p.xy).x; }", ""}) {
+    EXPECT_EQ(said("// a comment\nfloat map(vec3 p) {\n  return length(q) - 1.0;\n}")
+                  .find("some.map.glsl: line 3: 'q' : undeclared identifier"),
+              0u);
+    for (const char* broken :
+         {"float map(vec3 p) { return 1.0 }", "float map(vec3 p) { return length(p;", "}{",
+          "float map(vec3 p) {", "#if\nfloat map(vec3 p) { return 1.0; }", "float map(vec3 p);",
+          "#error no\nfloat map(vec3 p) { return 1.; }", "float map(vec3 p) { return map(p); }",
+          "float map(vec3 p) { return texture(iChannel0, p.xy).x; }", ""}) {
         const std::string message = said(broken);
         fmt::print("{}\n", message);
         EXPECT_EQ(message.find("some.map.glsl: "), 0u) << broken << " -> " << message;
         EXPECT_EQ(message.find('\n'), message.npos);
     }
     EXPECT_NE(said("float map(vec3 p) {\n  float d = 1.;\n  while (true)\n  d *= .999;\n  return d;\n}")
-                  .find("line 3: a loop without end"), std::string::npos);
-    EXPECT_NE(said("#define FOREVER for (;;)\nfloat map(vec3 p) {\n  float d = 1.;\n  FOREVER d *= .9;\n  return d;\n}")
-                  .find("line 4: a loop without end"), std::string::npos);
-    EXPECT_NE(said("float map(vec3 p) { return sqrt(p.x - 10.0); }").find("is not a number"), std::string::npos);
-    EXPECT_NE(said("float map(vec3 p) { return 1.0 / (p.x * 0.0); }").find("is not a number"), std::string::npos);
+                  .find("line 3: a loop without end"),
+              std::string::npos);
+    EXPECT_NE(said("#define FOREVER for (;;)\nfloat map(vec3 p) {\n  float d = 1.;\n  FOREVER d *= .9;\n  "
+                   "return d;\n}")
+                  .find("line 4: a loop without end"),
+              std::string::npos);
+    EXPECT_NE(said("float map(vec3 p) { return sqrt(p.x - 10.0); }").find("is not a number"),
+              std::string::npos);
+    EXPECT_NE(said("float map(vec3 p) { return 1.0 / (p.x * 0.0); }").find("is not a number"),
+              std::string::npos);
 }
 
 /// Loops of many turns a call: more than a dispatch may take in all, counted and split.
 TEST_F(FieldOnDevice, LongLoopsAreSplitAndNotCutOff) {
-    const std::string loops = "float map(vec3 p) { float d = 0.; for (int i = 0; i < 60; ++i) "
-                              "for (int j = 0; j < 60; ++j) d += 1.; return d - 3600. + length(p) - 1.; }";
-    const FieldSamples slow = traceMap(loops), quick = traceMap("float map(vec3 p) { return length(p) - 1.; }");
+    const std::string loops =
+        "float map(vec3 p) { float d = 0.; for (int i = 0; i < 60; ++i) "
+        "for (int j = 0; j < 60; ++j) d += 1.; return d - 3600. + length(p) - 1.; }";
+    const FieldSamples slow = traceMap(loops),
+                       quick = traceMap("float map(vec3 p) { return length(p) - 1.; }");
     EXPECT_EQ(hits(slow), hits(quick));
     EXPECT_GT(hits(slow), 150u);
 }
@@ -272,7 +283,8 @@ TEST(FieldRates, DISABLED_Measure) {
         for (int run = 0; run < 2; ++run) {
             const auto start = std::chrono::steady_clock::now();
             tracer->trace(window);
-            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            const double seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             MethodResult result;
             tracer->report(result);
             fmt::print("{} prune {}: {:.3f} s, set-up {:.2f} s", name, prune, seconds, result.setup_seconds);
@@ -281,10 +293,13 @@ TEST(FieldRates, DISABLED_Measure) {
             fmt::print("\n");
         }
     };
-    measure("sphere-minus-box", [](sdf::Tree& t) { addSphereMinusBox(t); }, true);
+    measure(
+        "sphere-minus-box", [](sdf::Tree& t) { addSphereMinusBox(t); }, true);
     for (const bool prune : {true, false}) {
-        measure("50 spheres", [](sdf::Tree& t) { addSpheres(t, 50, 0.15); }, prune);
-        measure("1000 spheres", [](sdf::Tree& t) { addSpheres(t, 1000, 0.05); }, prune);
+        measure(
+            "50 spheres", [](sdf::Tree& t) { addSpheres(t, 50, 0.15); }, prune);
+        measure(
+            "1000 spheres", [](sdf::Tree& t) { addSpheres(t, 1000, 0.05); }, prune);
     }
 }
 

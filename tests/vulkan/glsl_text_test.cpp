@@ -110,11 +110,11 @@ TEST_F(GlslOnDevice, AgreesWithDoubleWithinRunningErrors) {
     sdf::test::RandomTrees random(kSeed);
     std::set<Kind> kinds;
     Seen seen;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 120; ++i) {
         const Tree tree = random.next(i % 4);
         for (const sdf::Node& node : tree.nodes) kinds.insert(node.kind);
         const sdf::Tape tape = lower(tree);
-        const std::vector<glm::vec3> points = randomPoints(random, 400);
+        const std::vector<glm::vec3> points = randomPoints(random, 200);
         SCOPED_TRACE(fmt::format("seed {} tree {}", kSeed, i));
         expectAgreement(tape, points, evaluate(glslText(tape), points), seen);
     }
