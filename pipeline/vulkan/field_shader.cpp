@@ -88,9 +88,9 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
     if (batches) head += batchesText(made) + std::string(kField_lists);
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
                     : "#define EW_ROWS_AT(tile, t)\n#define EW_ALL_ROWS\n";
-    if (scene.glsl)
+    if (scene.glsl)  // undefined again before the user's text, which may have a function of that name
         head +=
-            "float map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n"
+            "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n"
             "#define EW_WINNER_AT(p, local) 0xffffffffu\n";
     else
         head += made.field.text + "#define EW_WINNER_AT(p, local) winnerAt(p, local)\n";
@@ -102,7 +102,7 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
     head += kField_field;
     const std::string file = scene.glsl ? scene.glsl->file : scene.source;
     const auto compile = [&](std::string_view body) {
-        return compileWithUserGlsl(head + std::string(body) + user.text, file);
+        return compileWithUserGlsl(head + std::string(body) + "#undef fieldAt\n" + user.text, file);
     };
     made.trace = compile(kField_trace);
     made.finish = compile(kField_finish);

@@ -174,11 +174,11 @@ TEST_F(FieldOnDevice, ManyDispatchesMakeTheSamePicture) {
     window.pixels = s.film.crop;
     const auto rays = raysOf(in, window, 0, 32, 100.0, {0, 0, 0, INFINITY});
     sdf::TraceSettings settings;
-    const FieldShaders shaders = makeFieldShaders(*s.field, settings, 32, 32, false);
+    const FieldShaders shaders = makeFieldShaders(*s.field, settings, 32, 32, true);
     std::vector<float> first;
     std::uint64_t dispatches = 0;
     for (const std::uint32_t turns : {0u, 500u, 200u}) {
-        FieldRays tracer(test::device(), shaders, settings, false, turns);
+        FieldRays tracer(test::device(), shaders, settings, turns == 500, turns);
         const FieldAnswers answers = tracer.trace(rays, {0, 0, 0, 3});
         std::vector<float> t;
         for (std::size_t i = 0; i < rays.size(); ++i)
@@ -189,6 +189,78 @@ TEST_F(FieldOnDevice, ManyDispatchesMakeTheSamePicture) {
         EXPECT_GT(tracer.counts().dispatches, dispatches);
         first = t, dispatches = tracer.counts().dispatches;
     }
+}
+
+/// Bands under --memory: the same bits.
+TEST_F(FieldOnDevice, LittleMemoryMakesTheSamePicture) {
+    Setting s(96);
+    addSpheres(s.field->tree, 60, 0.1);
+    MethodResult large, small;
+    const FieldSamples a = s.trace({}, &large);
+    s.options.memory_mib = 1;
+    const FieldSamples b = s.trace({}, &small);
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.color, b.color);
+    EXPECT_GT(small.counts["dispatches"], 5 * large.counts["dispatches"]);
+}
+
+/// A parallel camera and a moved film: a plane through the origin, tilted about the y axis.
+TEST_F(FieldOnDevice, OrthographicRaysAndShiftsMeetAPlaneWhereTheyShould) {
+    Setting s(32);
+    s.camera.camera.perspective = false, s.camera.camera.ymag = 1.0;
+    s.film.shift_px = {0.25, -0.5};
+    s.field->tree.root = s.field->tree.add(Kind::kPlane, {0.6, 0.0, 0.8, 0.0}, {}, 0);
+    sdf::TraceSettings settings;
+    settings.discontinuity_steps = 12, settings.level_set = true;
+    const FieldSamples samples = s.trace(settings);
+    for (std::size_t i = 0; i < samples.depth.size(); ++i) {
+        const double x = (i % 32 + 0.5 + 0.25 - 16.0) / 16.0;
+        // Twelve steps leave 0.2^12 of the threshold, the rest is float's.
+        EXPECT_NEAR(samples.depth[i], 4.0 + 0.75 * x, 1e-5) << i;
+        EXPECT_NEAR(samples.normal[i].x, 0.6, 1e-3);
+    }
+}
+
+/// Equation 3 moves hits to where the field is what the pixel permits: a step leaves 1 - slope cosine.
+TEST_F(FieldOnDevice, DiscontinuityStepsEvenTheFieldOut) {
+    Setting s(64);
+    s.field->tree.root = s.field->tree.add(Kind::kPlane, {0.0, 0.6, 0.8, 0.0}, {}, 0);
+    const auto spread = [&](int steps) {
+        sdf::TraceSettings settings;
+        settings.discontinuity_steps = steps, settings.threshold = 1.0;
+        const FieldSamples samples = s.trace(settings);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < samples.depth.size(); ++i) {
+            EXPECT_TRUE(std::isfinite(samples.depth[i]));
+            sum += std::abs(samples.residual[i] - std::tan(M_PI / 8) / 64.0 * samples.depth[i]);
+        }
+        return sum;
+    };
+    EXPECT_LT(spread(3), 0.1 * spread(0));
+}
+
+/// Past an edge with few steps: the last point is in the air, the candidate is not taken unless it is near.
+TEST_F(FieldOnDevice, TheCandidateLeavesNoGhostSilhouette) {
+    Setting s(96);
+    const std::uint32_t sphere = s.field->tree.add(Kind::kSphere, {1.0}, {}, 0),
+                        floor = s.field->tree.add(Kind::kPlane, {0, 1, 0, -1.2}, {}, 0);
+    s.field->tree.root = s.field->tree.add(Kind::kUnion, {}, {sphere, floor});
+    const sdf::Tape tape = lower(s.field->tree);
+    const auto ghosts = [&](bool screen) {
+        sdf::TraceSettings settings;
+        settings.relaxation = sdf::Relaxation::kNone, settings.prepass = false;
+        settings.most_steps = 16, settings.screen_candidate = screen;
+        const FieldSamples samples = s.trace(settings);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < samples.depth.size(); ++i)
+            count += std::isfinite(samples.depth[i]) &&
+                     std::abs(sdf::valueAt(tape, pointOf(s, samples, i))) > 0.01 * samples.depth[i];
+        return count;
+    };
+    const std::size_t last = ghosts(false), candidate = ghosts(true);
+    fmt::print("{} hits in the air by the last point, {} by the candidate\n", last, candidate);
+    EXPECT_GT(last, 50u);
+    EXPECT_EQ(candidate, 0u);
 }
 
 std::string messageOf(const std::function<void()>& work) {
@@ -214,9 +286,9 @@ TEST_F(FieldOnDevice, RawGlslAsPublished) {
         "#define LOOP(n) for (int i = 0; i < n; i++)\nconst int N = 3;\nfloat ew(float x) { return x; }\n"
         "float opSmooth(float a, float b, float k) { float h = clamp(.5 + .5*(b - a)/k, 0., 1.);\n"
         " return mix(b, a, h) - k*h*(1. - h); }\n"
-        "float fieldsAt(vec3 p) { return length(p) - 1.; }\n"
+        "float fieldAt(vec3 p) { return length(p) - 1.; }\n"
         "float map(in vec3 pos)\n{\n  vec3 q = mod(pos + 1e3 * 2., 2e3); q = pos;\n  R(q.xz, iTime);\n  "
-        "float d = fieldsAt(q);\n"
+        "float d = fieldAt(q);\n"
         "  LOOP(N) d = opSmooth(d, length(q - vec3(float(i) * .1, 1., 0.)) - .2, .1);\n"
         "  int n = 0; while (n < 3) ++n; do n--; while (n > 0);\n  return ew(d);\n}\n"
         "vec3 albedo(vec3 p, vec3 n) { return vec3(1, 0, 0); }\n"
