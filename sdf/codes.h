@@ -13,7 +13,8 @@
     SHAPE(boxAt)                                                                                            \
     SHAPE(boxFrameAt)                                                                                       \
     SHAPE(torusAt)                                                                                          \
-    SHAPE(capsuleAt) SHAPE(cylinderAt) SHAPE(coneAt) SHAPE(planeAt) SHAPE(ellipsoidAt) SHAPE(octahedronAt)  \
+    SHAPE(capsuleAt)                                                                                        \
+    SHAPE(cylinderAt) SHAPE(coneAt) SHAPE(planeAt) SHAPE(ellipsoidAt) SHAPE(octahedronAt)                   \
         SHAPE(dodecahedronAt) SHAPE(icosahedronAt) SHAPE(hexPrismAt) SHAPE(gyroidAt) SHAPE(tunnelsAt)       \
             MOVE(translateBy) MOVE(rotateBy) MOVE(stretchBy) MOVE(foldAxes) MOVE(repeatBy) MOVE(elongateBy) \
                 MOVE(twistBy) VALUE(complementOf) VALUE(offsetBy) VALUE(shellOf) VALUE(scaleValue)          \

@@ -93,7 +93,9 @@ class Preparation {
           parts_(glslParts(tokens_)) {}
 
     UserGlsl run() {
+        requireShortStatements();
         requireMap();
+        keepFreeNames();
         leaveOutEntryPoints();
         for (const GlslPart& part : parts_)
             if (!part.is_function) rewriteGlobal(part);
@@ -139,6 +141,26 @@ class Preparation {
             const std::size_t at = nameToken(part);
             return at > part.first && tokens_[at - 1].text == result && parameterTypes(part, at) == types;
         });
+    }
+
+    /// glslang walks expressions by recursion: what is chained without end would exhaust its stack.
+    void requireShortStatements() const {
+        constexpr std::size_t kMostWords = 10000;
+        std::size_t words = 0;
+        for (const GlslToken& token : tokens_) {
+            const char c = token.text[0];
+            words = c == ';' || c == '{' || c == '}' ? 0 : words + 1;
+            if (words > kMostWords)
+                failAt(map_.file, token.line,
+                       fmt::format("a statement has more than {} words and signs", kMostWords));
+        }
+    }
+
+    /// Names in GLSL ES that are words of desktop GLSL's own.
+    void keepFreeNames() {
+        static const Names kDesktopWords{"buffer", "shared", "precise"};
+        for (const GlslToken& token : tokens_)
+            if (kDesktopWords.contains(token.text)) edits_.insert(token.begin, "ew_");
     }
 
     void requireMap() const {

@@ -331,6 +331,24 @@ TEST_F(FieldOnDevice, WhatIsWrongWithRawGlslIsOneLine) {
               std::string::npos);
 }
 
+TEST_F(FieldOnDevice, LinesAreTheUsersBehindMacrosOfManyLines) {
+    const std::string text =
+        "/* two\nlines */ #define F(a) \\\n  (a + \\\n  1.0)\n"
+        "struct S { float d; int id; };\nconst vec2 K[2] = vec2[](vec2(1), vec2(2));\n"
+        "S shared_(vec3 p) { return S(length(p) - K[0].x, 1); }\n"
+        "float map(vec3 p) {\r\n  float buffer = F(\n 0.0);\n  return shared_(p).d * buffer";
+    EXPECT_GT(hits(traceMap(text + ";\n}\n")), 150u);
+    EXPECT_EQ(messageOf([&] { traceMap(text + " * nope;\n}\n"); }).find("some.map.glsl: line 11: 'nope'"),
+              0u);
+    std::string chain = "float map(vec3 p) { float d = p.x";
+    for (int i = 0; i < 4900; ++i) chain += "+1.";
+    EXPECT_EQ(messageOf([&] { traceMap(chain + "; return d; }"); }), "nothing");
+    for (int i = 0; i < 400000; ++i) chain += "+1.";
+    EXPECT_NE(messageOf([&] { traceMap(chain + "; return d; }"); }).find("line 1: a statement has more than"),
+              std::string::npos);
+    EXPECT_NE(messageOf([&] { traceMap("float map(vec3 p) " + std::string(100000, '{')); }), "nothing");
+}
+
 /// Loops of many turns a call: more than a dispatch may take in all, counted and split.
 TEST_F(FieldOnDevice, LongLoopsAreSplitAndNotCutOff) {
     const std::string loops =
