@@ -14,13 +14,13 @@
     SHAPE(boxFrameAt)                                                                                       \
     SHAPE(torusAt)                                                                                          \
     SHAPE(capsuleAt)                                                                                        \
-    SHAPE(cylinderAt) SHAPE(coneAt) SHAPE(planeAt) SHAPE(ellipsoidAt) SHAPE(octahedronAt)                   \
-        SHAPE(dodecahedronAt) SHAPE(icosahedronAt) SHAPE(hexPrismAt) SHAPE(gyroidAt) SHAPE(tunnelsAt)       \
-            MOVE(translateBy) MOVE(rotateBy) MOVE(stretchBy) MOVE(foldAxes) MOVE(repeatBy) MOVE(elongateBy) \
-                MOVE(twistBy) VALUE(complementOf) VALUE(offsetBy) VALUE(shellOf) VALUE(scaleValue)          \
-                    VALUE_AT(displaceBy) VALUE_AT(withinRadius) VALUE_AT(withinWalls) PAIR(unite)           \
-                        PAIR(intersect) PAIR(subtract) PAIR(smoothUnite) PAIR(smoothIntersect)              \
-                            PAIR(smoothSubtract)
+    SHAPE(cylinderAt)                                                                                       \
+    SHAPE(coneAt) SHAPE(planeAt) SHAPE(ellipsoidAt) SHAPE(octahedronAt) SHAPE(dodecahedronAt)               \
+        SHAPE(icosahedronAt) SHAPE(hexPrismAt) SHAPE(gyroidAt) SHAPE(tunnelsAt) MOVE(translateBy)           \
+            MOVE(rotateBy) MOVE(stretchBy) MOVE(foldAxes) MOVE(repeatBy) MOVE(elongateBy) MOVE(twistBy)     \
+                VALUE(complementOf) VALUE(offsetBy) VALUE(shellOf) VALUE(scaleValue) VALUE_AT(displaceBy)   \
+                    VALUE_AT(withinRadius) VALUE_AT(withinWalls) PAIR(unite) PAIR(intersect) PAIR(subtract) \
+                        PAIR(smoothUnite) PAIR(smoothIntersect) PAIR(smoothSubtract)
 
 namespace edgewise::sdf {
 

@@ -34,7 +34,7 @@ struct Setting {
     explicit Setting(int size) {
         test::device();  // validation is on from here
         field->source = "test", field->far = 100.0;
-        field->materials.resize(1);
+        field->materials.resize(3);
         camera.camera.yfov = 0.78539816339744830962;
         camera.camera.world_from_camera[3] = glm::dvec4(0, 0, 4, 1);
         camera.camera_from_world = glm::inverse(camera.camera.world_from_camera);
@@ -71,7 +71,7 @@ void addSpheres(sdf::Tree& tree, int count, double radius) {
     for (int i = 0; i < count; ++i) {
         const double x = place(random), y = place(random), z = place(random);
         const double r = radius * (1.0 + 0.5 * place(random));
-        children.push_back(tree.add(Kind::kTranslate, {x, y, z}, {tree.add(Kind::kSphere, {r}, {}, 0)}));
+        children.push_back(tree.add(Kind::kTranslate, {x, y, z}, {tree.add(Kind::kSphere, {r}, {}, i % 3)}));
     }
     tree.root = tree.add(Kind::kSmoothUnion, {0.05}, children);
 }
@@ -146,23 +146,49 @@ TEST_F(FieldOnDevice, EveryRelaxationFindsTheSameSurface) {
         }
 }
 
+/// A ball less many boxes, and many boxes, in a turned place: other folds.
+void addBoxes(sdf::Tree& tree, Kind fold) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    std::vector<std::uint32_t> children;
+    if (fold == Kind::kSmoothDifference) children.push_back(tree.add(Kind::kSphere, {1.2}, {}, 2));
+    for (std::uint32_t i = 0; i < 150; ++i) {
+        const double x = place(random), y = place(random), z = place(random);
+        const std::uint32_t box = tree.add(Kind::kBox, {0.2, 0.1 + 0.05 * x, 0.15}, {}, i % 3);
+        children.push_back(
+            tree.add(Kind::kTranslate, {x, y, z}, {tree.add(Kind::kRotate, {1, 1, 0, 60 * y}, {box})}));
+    }
+    const bool smooth = fold == Kind::kSmoothDifference;
+    const std::uint32_t all =
+        tree.add(fold, smooth ? std::vector<double>{0.03} : std::vector<double>{}, children);
+    tree.root = tree.add(Kind::kRotate, {0, 1, 0, 20}, {all});
+}
+
 TEST_F(FieldOnDevice, PruningKeepsEveryBit) {
-    Setting s(96);
-    addSpheres(s.field->tree, 300, 0.08);
-    sdf::TraceSettings with, without;
-    without.prune = false;
-    MethodResult pruned, whole;
-    const FieldSamples a = s.trace(with, &pruned), b = s.trace(without, &whole);
-    EXPECT_GT(hits(a), 1000u);
-    EXPECT_EQ(a.depth, b.depth);
-    EXPECT_EQ(a.normal, b.normal);
-    EXPECT_EQ(a.residual, b.residual);
-    EXPECT_EQ(a.evaluations, b.evaluations);
-    EXPECT_EQ(a.surface, b.surface);
-    const double rows = static_cast<double>(pruned.counts["listed_rows"]) / pruned.counts["lists"];
-    fmt::print("{:.1f} of 299 rows a list\n", rows);
-    EXPECT_LT(rows, 100.0);
-    EXPECT_EQ(whole.counts["lists"], 0u);
+    const auto expectSame = [](const char* name, const std::function<void(sdf::Tree&)>& build) {
+        SCOPED_TRACE(name);
+        Setting s(96);
+        build(s.field->tree);
+        sdf::TraceSettings with, without;
+        without.prune = false;
+        MethodResult pruned, whole;
+        const FieldSamples a = s.trace(with, &pruned), b = s.trace(without, &whole);
+        EXPECT_GT(hits(a), 1000u);
+        EXPECT_EQ(a.depth, b.depth);
+        EXPECT_EQ(a.normal, b.normal);
+        EXPECT_EQ(a.residual, b.residual);
+        EXPECT_EQ(a.evaluations, b.evaluations);
+        EXPECT_EQ(a.surface, b.surface);
+        for (std::uint32_t material = 0; material < 3; ++material)
+            EXPECT_GT(std::ranges::count(a.surface, material), 10);
+        const double rows = static_cast<double>(pruned.counts["listed_rows"]) / pruned.counts["lists"];
+        fmt::print("{}: {:.1f} rows a list\n", name, rows);
+        EXPECT_LT(rows, 75.0);
+        EXPECT_EQ(whole.counts["lists"], 0u);
+    };
+    expectSame("300 spheres, smooth union", [](sdf::Tree& t) { addSpheres(t, 300, 0.08); });
+    expectSame("150 boxes, union", [](sdf::Tree& t) { addBoxes(t, Kind::kUnion); });
+    expectSame("150 boxes, smooth difference", [](sdf::Tree& t) { addBoxes(t, Kind::kSmoothDifference); });
 }
 
 /// lavapipe's limit: a tiny budget of turns a dispatch gives the same bits.
