@@ -8,23 +8,17 @@
 // VALUE   value <- f(value, numbers)
 // VALUE_AT value <- f(value, position, numbers)
 // PAIR    value <- f(value, value, numbers)
-#define EDGEWISE_SDF_CODES(SHAPE, MOVE, VALUE, VALUE_AT, PAIR)                                               \
-    SHAPE(sphereAt)                                                                                          \
-    SHAPE(boxAt)                                                                                             \
-    SHAPE(boxFrameAt)                                                                                        \
-    SHAPE(torusAt)                                                                                           \
-    SHAPE(capsuleAt)                                                                                         \
-    SHAPE(cylinderAt)                                                                                        \
-    SHAPE(coneAt)                                                                                            \
-    SHAPE(planeAt)                                                                                           \
-    SHAPE(ellipsoidAt)                                                                                       \
-    SHAPE(octahedronAt)                                                                                      \
-    SHAPE(dodecahedronAt)                                                                                    \
-    SHAPE(icosahedronAt) SHAPE(hexPrismAt) SHAPE(gyroidAt) SHAPE(tunnelsAt) MOVE(translateBy) MOVE(rotateBy) \
-        MOVE(stretchBy) MOVE(foldAxes) MOVE(repeatBy) MOVE(elongateBy) MOVE(twistBy) VALUE(complementOf)     \
-            VALUE(offsetBy) VALUE(shellOf) VALUE(scaleValue) VALUE_AT(displaceBy) VALUE_AT(withinRadius)     \
-                VALUE_AT(withinWalls) PAIR(unite) PAIR(intersect) PAIR(subtract) PAIR(smoothUnite)           \
-                    PAIR(smoothIntersect) PAIR(smoothSubtract)
+// clang-format off
+#define EDGEWISE_SDF_CODES(SHAPE, MOVE, VALUE, VALUE_AT, PAIR)                                              \
+    SHAPE(sphereAt) SHAPE(boxAt) SHAPE(boxFrameAt) SHAPE(torusAt) SHAPE(capsuleAt) SHAPE(cylinderAt)        \
+    SHAPE(coneAt) SHAPE(planeAt) SHAPE(ellipsoidAt) SHAPE(octahedronAt) SHAPE(dodecahedronAt)               \
+    SHAPE(icosahedronAt) SHAPE(hexPrismAt) SHAPE(gyroidAt) SHAPE(tunnelsAt)                                 \
+    MOVE(translateBy) MOVE(rotateBy) MOVE(stretchBy) MOVE(foldAxes) MOVE(repeatBy) MOVE(elongateBy)         \
+    MOVE(twistBy)                                                                                           \
+    VALUE(complementOf) VALUE(offsetBy) VALUE(shellOf) VALUE(scaleValue)                                    \
+    VALUE_AT(displaceBy) VALUE_AT(withinRadius) VALUE_AT(withinWalls)                                       \
+    PAIR(unite) PAIR(intersect) PAIR(subtract) PAIR(smoothUnite) PAIR(smoothIntersect) PAIR(smoothSubtract)
+// clang-format on
 
 namespace edgewise::sdf {
 

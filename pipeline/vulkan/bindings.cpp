@@ -23,8 +23,8 @@ vk::raii::PipelineLayout makeLayout(const Device& device, vk::ShaderStageFlags s
     return {device.handle(), vk::PipelineLayoutCreateInfo({}, 1, &*sets, push > 0 ? 1 : 0, &range)};
 }
 
-vk::raii::ShaderModule makeModule(const Device& device, std::string_view shader) {
-    const std::vector<std::uint32_t> words = withExactArithmetic(spirv(shader));
+vk::raii::ShaderModule makeModule(const Device& device, const ShaderCode& shader) {
+    const std::vector<std::uint32_t> words = withExactArithmetic(shader.words);
     return {device.handle(), vk::ShaderModuleCreateInfo({}, words)};
 }
 
@@ -84,7 +84,9 @@ void Bindings::bind(const vk::raii::CommandBuffer& commands, vk::PipelineBindPoi
                                             static_cast<const std::byte*>(push.data)));
 }
 
-ShaderStage::ShaderStage(const Device& device, vk::ShaderStageFlagBits stage, std::string_view shader,
+ShaderCode::ShaderCode(std::string_view embedded) : name(embedded), words(spirv(embedded)) {}
+
+ShaderStage::ShaderStage(const Device& device, vk::ShaderStageFlagBits stage, const ShaderCode& shader,
                          const Specialization& constants)
     : stage_(stage), module_(makeModule(device, shader)), constants_(constants) {
     for (std::uint32_t i = 0; i < constants_.size(); ++i) entries_.emplace_back(i, 4 * i, 4);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -77,10 +78,21 @@ class Bindings {
     std::vector<vk::DescriptorSet> sets_;
 };
 
+/// A shader's name and its SPIR-V: one that the build embedded, by its name, or one compiled at run time.
+struct ShaderCode {
+    std::string_view name;
+    std::span<const std::uint32_t> words;
+    ShaderCode(std::string_view embedded);
+    ShaderCode(const char* embedded) : ShaderCode(std::string_view(embedded)) {}
+    ShaderCode(const std::string& embedded) : ShaderCode(std::string_view(embedded)) {}
+    ShaderCode(std::string_view own_name, std::span<const std::uint32_t> module)
+        : name(own_name), words(module) {}
+};
+
 /// One shader of a pipeline with its specialization constants, alive while the pipeline is made.
 class ShaderStage {
   public:
-    ShaderStage(const Device& device, vk::ShaderStageFlagBits stage, std::string_view shader,
+    ShaderStage(const Device& device, vk::ShaderStageFlagBits stage, const ShaderCode& shader,
                 const Specialization& constants);
     ShaderStage(const ShaderStage&) = delete;
     ShaderStage& operator=(const ShaderStage&) = delete;

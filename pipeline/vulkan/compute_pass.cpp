@@ -6,18 +6,18 @@ namespace {
 constexpr vk::ShaderStageFlagBits kStage = vk::ShaderStageFlagBits::eCompute;
 
 vk::raii::Pipeline makePipeline(const Device& device, const vk::raii::PipelineLayout& layout,
-                                std::string_view shader, const Specialization& constants) {
+                                const ShaderCode& shader, const Specialization& constants) {
     const ShaderStage stage(device, kStage, shader, constants);
     return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage.info(), *layout)};
 }
 
 }  // namespace
 
-ComputePass::ComputePass(const Device& device, std::string_view shader, BufferSlots slots,
+ComputePass::ComputePass(const Device& device, const ShaderCode& shader, BufferSlots slots,
                          std::size_t push_bytes, const Specialization& constants, std::size_t image_count)
     : bindings_(device, kStage, slots, image_count, push_bytes),
       pipeline_(makePipeline(device, bindings_.layout(), shader, constants)) {
-    device.name(pipeline_, std::string(shader));
+    device.name(pipeline_, std::string(shader.name));
     if (image_count == 0) warmUp(device, slots.count, push_bytes);
 }
 

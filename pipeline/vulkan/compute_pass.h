@@ -27,7 +27,7 @@ struct Groups {
 /// A shader writes nothing when its push constants are 0: it is run so once, to be compiled.
 class ComputePass {
   public:
-    ComputePass(const Device& device, std::string_view shader, BufferSlots slots, std::size_t push_bytes = 0,
+    ComputePass(const Device& device, const ShaderCode& shader, BufferSlots slots, std::size_t push_bytes = 0,
                 const Specialization& constants = {}, std::size_t image_count = 0);
 
     using Range = BufferRange;

@@ -1,0 +1,116 @@
+#include "pipeline/vulkan/field_shader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "field_cones_text.h"
+#include "field_field_text.h"
+#include "field_finish_text.h"
+#include "field_header_text.h"
+#include "field_lists_text.h"
+#include "field_prune_main_text.h"
+#include "field_prune_text.h"
+#include "field_trace_text.h"
+#include "pipeline/vulkan/user_glsl.h"
+
+namespace edgewise::vulkan {
+namespace {
+
+/// lavapipe stops the loops of invocations that run together, 8 of them, at 65,535 turns in all. Loops of a
+/// user's map may differ from one invocation to the next: each has an eighth, with room for one evaluation
+/// and its colour.
+constexpr unsigned kMostUserTurns = 65535 / 8 - 2 * kUserTurns + kUserTurns;
+
+std::string numbersText(const sdf::TraceSettings& s, double lipschitz, bool user_loops) {
+    const auto flag = [](bool on) { return on ? "true" : "false"; };
+    return fmt::format(
+        "const uint ew_relaxation = {}u, ew_most_iterations = {}u, ew_discontinuity = {}u;\n"
+        "const float ew_omega = {}, ew_threshold = {}, ew_inverse_lipschitz = {};\n"
+        "const bool ew_screen_candidate = {}, ew_level_set = {}, ew_prepass = {};\n"
+        "const uint ew_most_user_turns = {}u, ew_most_turns = {}u;\n",
+        static_cast<int>(s.relaxation), std::max(s.most_steps, 1), std::max(s.discontinuity_steps, 0),
+        sdf::glslNumber(s.relaxation == sdf::Relaxation::kKeinert ? s.omega : 1.0),
+        sdf::glslNumber(s.threshold), sdf::glslNumber(1.0 / lipschitz), flag(s.screen_candidate),
+        flag(s.level_set), flag(s.prepass), kUserTurns, user_loops ? kMostUserTurns : 0xffffffffu);
+}
+
+template <class Each>
+std::string arrayText(std::string_view name, std::size_t count, const Each& each) {
+    std::string list;
+    for (std::size_t i = 0; i < count; ++i) list += fmt::format("{}{}u", i ? ", " : "", each(i));
+    return fmt::format("const uint {}[{}] = uint[]({});\n", name, count, list);
+}
+
+std::string batchesText(FieldShaders& made) {
+    const std::vector<sdf::GlslBatch>& batches = made.field.batches;
+    const auto fineRoom = [&](std::size_t i) { return std::min(batches[i].rows, kFieldListRows); };
+    const auto coarseRoom = [&](std::size_t i) { return std::min(batches[i].rows, kFieldCoarseRows); };
+    std::vector<std::uint32_t> all{0}, fine{0}, coarse{0};
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        all.push_back(all.back() + batches[i].rows);
+        fine.push_back(fine.back() + 1 + fineRoom(i)), coarse.push_back(coarse.back() + 1 + coarseRoom(i));
+    }
+    made.fine_stride = fine.back();
+    made.tile_stride = kFieldSegments * fine.back() + kFieldCoarseSegments * coarse.back();
+    return fmt::format(
+               "const uint ew_batches = {}u, ew_segments = {}u, ew_coarse = {}u;\n"
+               "const uint ew_fine_stride = {}u, ew_coarse_stride = {}u, ew_tile_stride = {}u;\n"
+               "uvec2 ew_range[{}];\n",
+               batches.size(), kFieldSegments, kFieldCoarseSegments, fine.back(), coarse.back(),
+               made.tile_stride, batches.size()) +
+           arrayText("ew_all_begin", all.size(), [&](std::size_t i) { return all[i]; }) +
+           arrayText("ew_fine_begin", fine.size(), [&](std::size_t i) { return fine[i]; }) +
+           arrayText("ew_coarse_begin", coarse.size(), [&](std::size_t i) { return coarse[i]; }) +
+           arrayText("ew_fine_room", batches.size(), fineRoom) +
+           arrayText("ew_coarse_room", batches.size(), coarseRoom);
+}
+
+}  // namespace
+
+FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
+                              int height, bool prune) {
+    FieldShaders made;
+    UserGlsl user;
+    if (scene.glsl) {
+        user = prepareUserGlsl(*scene.glsl, width, height);
+        made.user_loops = user.has_loops, made.user_albedo = user.has_albedo;
+        made.lipschitz = scene.glsl->lipschitz;
+    } else {
+        const sdf::Tape tape = lower(scene.tree);
+        made.field = sdf::glslText(tape);
+        made.lipschitz = tape.lipschitz;
+    }
+    const bool batches = !made.field.batches.empty();
+    std::string head = "#version 460\n";
+    head += numbersText(settings, made.lipschitz, made.user_loops);
+    head += kField_header;
+    if (batches) head += batchesText(made) + std::string(kField_lists);
+    head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
+                    : "#define EW_ROWS_AT(tile, t)\n#define EW_ALL_ROWS\n";
+    if (scene.glsl)  // undefined again before the user's text, which may have a function of that name
+        head +=
+            "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n"
+            "#define EW_WINNER_AT(p, local) 0xffffffffu\n";
+    else
+        head += made.field.text + "#define EW_WINNER_AT(p, local) winnerAt(p, local)\n";
+    head += made.user_albedo
+                ? "vec3 albedo(vec3 p, vec3 n);\n"
+                  "vec3 ew_albedoAt(vec3 p, vec3 n) { ew_user_turns = 0u; return albedo(p, n); }\n"
+                  "#define EW_ALBEDO(p, n) ew_albedoAt(p, n)\n"
+                : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
+    head += kField_field;
+    const std::string file = scene.glsl ? scene.glsl->file : scene.source;
+    const auto compile = [&](std::string_view body) {
+        return compileWithUserGlsl(head + std::string(body) + "#undef fieldAt\n" + user.text, file);
+    };
+    made.trace = compile(kField_trace);
+    made.finish = compile(kField_finish);
+    if (settings.prepass || prune) made.cones = compile(kField_cones);
+    if (batches && prune)
+        made.prune =
+            compile(std::string(kField_prune) + made.field.prune_text + std::string(kField_prune_main));
+    return made;
+}
+
+}  // namespace edgewise::vulkan

@@ -1,0 +1,35 @@
+// The shaders that trace a scene's field: shaders/field/ put together around its generated or raw GLSL.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf/field_scene.h"
+#include "sdf/glsl_text.h"
+#include "sdf/tape.h"
+#include "sdf/trace_settings.h"
+
+namespace edgewise::vulkan {
+
+/// Segments of a tile's depths that have lists of their own, and longer ones that those are made from.
+inline constexpr std::uint32_t kFieldSegments = 32, kFieldCoarseSegments = 4;
+/// Rows of their lists; where more count, all do.
+inline constexpr std::uint32_t kFieldListRows = 128, kFieldCoarseRows = 512;
+
+struct FieldShaders {
+    std::vector<std::uint32_t> trace, finish, cones, prune;  ///< SPIR-V; prune: empty without batches
+    sdf::GlslField field;                                    ///< empty text: a raw map
+    bool user_loops = false, user_albedo = false;
+    double lipschitz = 1.0;
+    std::uint32_t fine_stride = 0, tile_stride = 0;  ///< words of a fine segment's lists, of all of a tile's
+    /// Of an evaluation, at most, in a dispatch's turns of loops.
+    std::uint32_t turnsOfEvaluation() const { return field.rows() + 1; }
+};
+
+/// Throws InputError for GLSL that does not compile.
+FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
+                              int height, bool prune);
+
+}  // namespace edgewise::vulkan

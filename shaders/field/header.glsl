@@ -1,0 +1,54 @@
+// What every shader of a field begins with. Names of ours start with ew_: a user's map may stand behind this text.
+// Rays of 8 x 8 neighbours are neighbours in ew_rays: a workgroup is a tile.
+layout(local_size_x = 64) in;
+
+struct EwRay {
+    float origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
+    float t_min, t_max;                // t_max < t_min: nothing to trace
+    float pixel_radius, pixel_slope;   // half a pixel's side along the ray
+    float sign;                        // of the field that is traced; 0: of the value where the ray begins
+};
+struct EwState {
+    float t, before;                   // where to ask next; the field at the point before (signed), over L
+    float step, omega, slope, sign;
+    float candidate_t, candidate_error, last_t;
+    uint evaluations, iterations, failed, end;
+};
+struct EwHit {
+    float t, value, normal_x, normal_y, normal_z, local_x, local_y, local_z, color_r, color_g, color_b;
+    uint material;
+};
+struct EwCone {
+    float origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
+    float radius, spread;              // rays of the tile are within radius + spread t of the axis at t
+    float t_min, t_max, pixel_radius, pixel_slope;  // the least, the largest, the largest of the rays
+};
+struct EwTile { float begin, list_begin, list_end; uint evaluations; };
+
+const uint ew_running = 0u, ew_surface = 1u, ew_candidate = 2u, ew_far = 3u, ew_out_of_steps = 4u, ew_empty = 5u;
+
+layout(std430, binding = 0) readonly buffer EwRays { EwRay ew_rays[]; };
+layout(std430, binding = 1) buffer EwStates { EwState ew_states[]; };
+layout(std430, binding = 2) buffer EwHits { EwHit ew_hits[]; };
+layout(std430, binding = 3) readonly buffer EwCones { EwCone ew_cones[]; };
+layout(std430, binding = 4) buffer EwTiles { EwTile ew_tiles[]; };
+layout(std430, binding = 5) readonly buffer EwTable { uint ew_table[]; };
+layout(std430, binding = 6) buffer EwItems { uint ew_items[]; };
+/// 0: a value that is no number: 1; its position in 1 to 3; 4: a user's loop without end: its line; 5: active rays.
+layout(std430, binding = 7) buffer EwFlags { uint ew_flags[]; };
+layout(push_constant) uniform EwPush {
+    uint ew_count;        // rays, tiles or tiles times segments
+    uint ew_first;        // of a pass in parts
+    uint ew_steps;        // of this dispatch
+    uint ew_fresh;        // 1: states begin
+    uint ew_pruned;       // 1: lists are there
+};
+
+uint ew_turns = 0u, ew_user_turns = 0u, ew_stuck_line = 0u;
+bool ew_turn(uint line) {
+    ++ew_turns;
+    ++ew_user_turns;
+    if (ew_user_turns <= ew_most_user_turns) return true;
+    ew_stuck_line = line;
+    return false;
+}
