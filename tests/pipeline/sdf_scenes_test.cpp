@@ -78,7 +78,7 @@ TEST(SdfScenes, LoadAndKeepTheirBoundsAndShowSomething) {
             std::printf("%-16s %4zu nodes %4zu instructions, %5.1f %% of the rays meet something\n",
                         recipe.name.c_str(), scene.field->tree.nodes.size(), tape.size(), 100.0 * share);
             // Wires are thinner than a pixel: these rays may miss them all.
-            if (recipe.name != "wires") EXPECT_GT(share, 0.2) << recipe.name;
+            EXPECT_GT(share, recipe.name == "wires" ? -1.0 : 0.2) << recipe.name;
         }
     }
     EXPECT_GE(cameras, 18u);
@@ -95,9 +95,9 @@ TEST(SdfScenes, WiresAreAsWideInPixelsAsTheySay) {
         thinnest = std::min(thinnest, 2.0 * node.numbers[6] / pixel);
         widest = std::max(widest, 2.0 * node.numbers[6] / pixel);
     }
-    // Radii are rounded to 1e-9, widths to 1e-4 px.
+    // Widths are rounded to 1e-4 px, radii to 1e-9.
     EXPECT_NEAR(thinnest, 0.05, 1e-9 / pixel);
-    EXPECT_NEAR(widest, 1.0, 1e-4);
+    EXPECT_NEAR(widest, 1.0, 0.5e-4 + 1e-9 / pixel);
 }
 
 TEST(SdfScenes, CamerasLightsAndFarPlanesAreTheirOwn) {
