@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "pipeline/error.h"
+#include "sdf/field_scene.h"
 
 namespace edgewise {
 namespace {
@@ -80,6 +81,10 @@ Camera framingCamera(const Scene& scene, const CameraOptions& options, double as
     camera.world_from_camera = lookAlong(sphere.centre + distance * toward_eye, toward_eye);
     camera.znear = 0.5 * (distance - sphere.radius);
     camera.zfar = distance + 2.0 * sphere.radius;
+    if (scene.field) {  // which may reach beyond its bounds
+        camera.zfar = scene.field->far;
+        camera.znear = std::min(distance, scene.field->far) * 0x1p-10;
+    }
     return camera;
 }
 

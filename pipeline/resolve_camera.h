@@ -33,8 +33,10 @@ inline constexpr int kDefaultFilmWidth = 1024;
 ///  4. "framing": from the direction (1, 0.8, 1.2), above and to the side, 45 degrees, at the distance where
 ///  the
 ///     sphere around the scene's bounds just fits the narrower of both angles, with 5% to spare. The near
-///     plane is half-way to the sphere, the far one a radius behind it. A scene without extent (empty, one
-///     point) gets a sphere of radius 1, or of 2^-20 of its distance from the origin if that is more.
+///     plane is half-way to the sphere, the far one a radius behind it; of SDF scenes, whose unbounded parts
+///     have no sphere, near is 1/1024 of the way and far where the scene's rays end. A scene without extent
+///     (empty, one point) gets a sphere of radius 1, or of 2^-20 of its distance from the origin if that is
+///     more.
 /// --fovy alone replaces the yfov of a perspective camera of the file.
 ///
 /// Film: --size, else 1024 wide and 1024 / aspect high, rounded, at least 1; square without an aspect. yfov

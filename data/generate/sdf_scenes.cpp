@@ -120,7 +120,7 @@ Json wire(double x0, double y0, double x1, double y1, double width_px) {
 /// 0.05 to 1 in twelve steps: 20^(1/12) each.
 double wireWidth(int i) {
     double width = 0.05;
-    for (int k = 0; k < i; ++k) width *= 1.2835823894738546;
+    for (int k = 0; k < i; ++k) width *= 1.2835688421125162;
     return std::floor(width * 1e4 + 0.5) / 1e4;
 }
 

@@ -25,6 +25,7 @@
 #include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
+#include "pipeline/load_scene.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/version.h"
@@ -232,9 +233,12 @@ void addCompare(CLI::App& program, const std::string& command_line) {
         ->type_name("M")
         ->required()
         ->allow_extra_args(false);
-    command->add_option("--reference", arguments->reference, "what errors are against")
-        ->type_name("M")
-        ->capture_default_str();
+    const CLI::Option* reference =
+        command
+            ->add_option("--reference", arguments->reference,
+                         fmt::format("what errors are against [{}; SDF scenes: {}]", kUsualReference,
+                                     kUsualFieldReference))
+            ->type_name("M");
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
     command->add_option("--budget", arguments->budget, "a method, all its runs [none]")->type_name("SECONDS");
@@ -243,7 +247,11 @@ void addCompare(CLI::App& program, const std::string& command_line) {
         ->capture_default_str();
     command->add_flag("--resume", arguments->resume, "keep the rows that DIR has of the same command");
     command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
-    command->callback([arguments] { runCompare(*arguments); });
+    command->callback([arguments, reference] {
+        if (reference->count() == 0 && isFieldFile(findScene(arguments->picture.scene)))
+            arguments->reference = kUsualFieldReference;
+        runCompare(*arguments);
+    });
 }
 
 }  // namespace edgewise::cli

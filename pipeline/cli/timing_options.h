@@ -8,6 +8,7 @@
 namespace edgewise::cli {
 
 inline constexpr const char* kUsualReference = "nsaa,device=cpu";
+inline constexpr const char* kUsualFieldReference = "ssaa:16";  ///< of SDF scenes
 inline constexpr const char* kUsualRuns = "5";
 inline constexpr int kMostRuns = 10000;
 

@@ -47,7 +47,7 @@ TEST(CheckLipschitz, EveryKindKeepsItsOwnBound) {
     const std::string part = R"({"type": "union", "children": [{"type": "torus", "major": 0.5, "minor": 0.2},
         {"type": "box", "size": [0.4, 1, 0.7], "at": [0.3, 0.2, -0.1],
          "rotate": {"axis": [1, 2, 3], "degrees": 40}}]})";
-    for (const std::string& head :
+    for (const char* head :
          {R"("twist", "degrees_per_unit": 90)", R"("displace", "amplitude": 0.3, "frequency": [5, 0, 7])",
           R"("repeat", "spacing": [3, 0, 2.5], "count": [2, 0, 3])", R"("elongate", "by": [1, 0, 2])",
           R"("stretch", "factors": [1, 3, 0.5])", R"("mirror", "axes": [1, 0, 1])",
