@@ -9,8 +9,8 @@ namespace {
 SphereTracingEffort effortFor(bool quick) {
     SphereTracingEffort effort;
     effort.quick = quick;
-    effort.scenes = {"city",     "jewel",    "path-room",        "primitives", "thin", "blob", "gyroid",
-                     "menger-3", "spheres-50", "sphere-minus-box", "atrium"};
+    effort.scenes = {"city",   "jewel",    "path-room",  "primitives",       "thin",  "blob",
+                     "gyroid", "menger-3", "spheres-50", "sphere-minus-box", "atrium"};
     effort.candidate_scenes = {"thin", "city"};
     effort.jump_scenes = {"blob", "primitives"};
     effort.pruning_scenes = {"spheres-1000", "city", "random-box"};
@@ -25,7 +25,8 @@ SphereTracingEffort effortFor(bool quick) {
 
 std::vector<FigureFile> makeSphereTracing(const FigureInput& input) {
     const SphereTracing found = measureSphereTracing(effortFor(input.quick), input.progress);
-    std::vector<FigureFile> files{{"report.html", sphereTracingHtml(found)}, {"results.json", sphereTracingJson(found)}};
+    std::vector<FigureFile> files{{"report.html", sphereTracingHtml(found)},
+                                  {"results.json", sphereTracingJson(found)}};
     files.insert(files.end(), found.pictures.begin(), found.pictures.end());
     return files;
 }

@@ -25,10 +25,12 @@ struct TracedScene {
     std::string name;
     int width = 0, height = 0;
     std::uint64_t rays = 0;
-    std::vector<TraceRun> runs;              ///< the first is classic
-    std::optional<double> published;         ///< Keinert's ratio of times, on a scene of his own of that kind
+    std::vector<TraceRun> runs;       ///< the first is classic
+    std::optional<double> published;  ///< Keinert's ratio of times, on a scene of his own of that kind
     std::string remark;
-    double ratioOf(const TraceRun& run) const { return double(runs[0].evaluations) / double(run.evaluations); }
+    double ratioOf(const TraceRun& run) const {
+        return double(runs[0].evaluations) / double(run.evaluations);
+    }
 };
 
 /// Section 3.2: pixels at `steps` steps whose normal is not that of rays that may take all they need.

@@ -7,11 +7,13 @@
 #include <map>
 
 #include "pipeline/error.h"
-#include "pipeline/field_statistics.h"
+#include "pipeline/field_rays.h"
+#include "pipeline/field_shading.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
+#include "sdf/evaluate.h"
 
 namespace edgewise::figures {
 namespace {
@@ -26,11 +28,13 @@ struct View {
     ResolvedCamera camera;
     Prefilter filter = makePrefilter("box", {}, {});
     RenderOptions options;
+    sdf::RayGrid rays;
     View(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
         CameraOptions wanted;
         wanted.size = glm::ivec2(width, height);
         camera = resolveCamera(scene, wanted, film);
         options.device = DeviceChoice::kCpu;
+        rays = rayGrid(camera, film, scene.field->far);
     }
 };
 
@@ -84,12 +88,17 @@ std::vector<NamedSetting> settingsFor(const std::string& scene) {
             {"auto + prepass", settingsOf(Relaxation::kAuto, true), true}};
 }
 
+/// Hits of one surface are no further apart along a ray than this many radii of the pixel: grazing surfaces
+/// lie within the threshold for many of them.
+constexpr double kSameHitRadii = 64.0;
+
 /// On which surface a ray ends: hits further apart than what their thresholds allow are of different ones.
 bool sameHit(const FieldSamples& a, const FieldSamples& b, std::size_t i, const View& view) {
     const bool hit = std::isfinite(a.depth[i]);
     if (hit != std::isfinite(b.depth[i])) return false;
     if (!hit) return true;
-    const double pixel = pixelRadiusAt(view.camera, view.film, a.depth[i]);
+    const sdf::FieldRay ray = view.rays.ray({0.5 * view.film.width, 0.5 * view.film.height});
+    const double pixel = ray.pixel_radius + ray.pixel_slope * a.depth[i];
     return std::abs(a.depth[i] - b.depth[i]) <= kSameHitRadii * pixel;
 }
 
@@ -119,8 +128,12 @@ TracedScene measureScene(const std::string& name, const std::vector<NamedSetting
             Traced traced = trace(view, settings[s].settings, progress);
             seconds[s].push_back(traced.seconds);
             if (run > 0) continue;
-            TraceRun row{settings[s].name, settings[s].parameter_free, 0.0, primaryEvaluations(traced.report),
-                         total(traced.samples.iterations), 0};
+            TraceRun row{settings[s].name,
+                         settings[s].parameter_free,
+                         0.0,
+                         traced.report.counts.at("evaluations") + traced.report.counts.at("cone_evaluations"),
+                         total(traced.samples.iterations),
+                         0};
             if (s == 0) classic = traced.samples;
             for (std::size_t i = 0; i < classic.depth.size(); ++i)
                 row.changed += !sameHit(classic, traced.samples, i, view);
@@ -147,7 +160,8 @@ TracedScene measureConvex(const SphereTracingEffort& effort, Progress& progress)
     return scene;
 }
 
-CandidateCount measureCandidates(const std::string& name, const SphereTracingEffort& effort, Progress& progress) {
+CandidateCount measureCandidates(const std::string& name, const SphereTracingEffort& effort,
+                                 Progress& progress) {
     constexpr int kPaperSteps = 64, kAllSteps = 16384;
     constexpr float kSameNormal = 0.7f;  // within 45 degrees
     const View view(name, effort.width, effort.height);
@@ -171,6 +185,13 @@ CandidateCount measureCandidates(const std::string& name, const SphereTracingEff
     return count;
 }
 
+/// Slope times cosine at a hit: how fast the field falls along the ray.
+double fallAlongRay(const View& view, const sdf::Tape& tape, int x, int y, double t) {
+    const sdf::FieldRay ray = view.rays.ray({x + 0.5, y + 0.5});
+    const auto at = sdf::gradientAt(tape, ray.origin_world + t * ray.direction_world);
+    return -glm::dot(at.gradient, ray.direction_world) / tape.lipschitz;
+}
+
 /// Neighbours are of one surface where their normals and depths agree to first order.
 JumpCount measureJumps(const std::string& name, const SphereTracingEffort& effort, Progress& progress) {
     constexpr float kOneSurface = 0.98f;
@@ -183,6 +204,7 @@ JumpCount measureJumps(const std::string& name, const SphereTracingEffort& effor
         return trace(view, settings, progress).samples;
     };
     const FieldSamples before = traced(0), after = traced(kPaperSteps);
+    const sdf::Tape tape = loweredTree(*view.scene.field);
     std::vector<double> jumps_before, jumps_after;
     for (int y = 0; y < view.film.height; ++y)
         for (int x = 0; x + 1 < view.film.width; ++x) {
@@ -190,11 +212,9 @@ JumpCount measureJumps(const std::string& name, const SphereTracingEffort& effor
             if (!std::isfinite(before.depth[i]) || !std::isfinite(before.depth[j])) continue;
             if (before.surface[i] != before.surface[j]) continue;
             if (glm::dot(before.normal[i], before.normal[j]) < kOneSurface) continue;
-            const auto slope = [&](std::size_t k) {
-                return slopeAlongRay(view.scene, view.camera, view.film, x + static_cast<int>(k - i), y,
-                                     before.depth[k]);
-            };
-            if (std::min(slope(i), slope(j)) < kLeastSlope) continue;
+            const double here = fallAlongRay(view, tape, x, y, before.depth[i]);
+            const double there = fallAlongRay(view, tape, x + 1, y, before.depth[j]);
+            if (std::min(here, there) < kLeastSlope) continue;
             jumps_before.push_back(std::abs(double(before.residual[i]) - before.residual[j]));
             jumps_after.push_back(std::abs(double(after.residual[i]) - after.residual[j]));
         }
@@ -209,12 +229,18 @@ PruningCount measurePruning(const std::string& name, const SphereTracingEffort& 
     settings.prune = false;
     const Traced whole = trace(view, settings, progress);
     const auto perEvaluation = [](const Traced& traced) {
-        return double(traced.report.counts.at("instructions")) / double(traced.report.counts.at("evaluations"));
+        return double(traced.report.counts.at("instructions")) /
+               double(traced.report.counts.at("evaluations") + traced.report.counts.at("cone_evaluations"));
     };
-    PruningCount count{name, view.film.width, view.film.height, whole.seconds, pruned.seconds, 0.0,
-                       perEvaluation(whole), perEvaluation(pruned), 0};
-    for (const StageTime& stage : pruned.report.stages)
-        if (stage.name == "prune") count.build_seconds += stage.seconds;
+    PruningCount count{name,
+                       view.film.width,
+                       view.film.height,
+                       whole.seconds,
+                       pruned.seconds,
+                       1e-6 * double(pruned.report.counts.at("prune_microseconds")),
+                       perEvaluation(whole),
+                       perEvaluation(pruned),
+                       0};
     for (std::size_t i = 0; i < whole.samples.depth.size(); ++i)
         count.differing += whole.samples.depth[i] != pruned.samples.depth[i];
     progress.advance(1);

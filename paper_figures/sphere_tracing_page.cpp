@@ -20,7 +20,8 @@ p.under{font-size:13px;color:#444;margin:8px 0 0}
 
 std::string table(const std::string& heads, const std::string& rows) {
     return fmt::format(
-        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", heads, rows);
+        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+        heads, rows);
 }
 
 std::string number(double value, const char* format) {
@@ -32,16 +33,19 @@ std::string runsTable(const std::vector<TracedScene>& scenes) {
     for (const TracedScene& scene : scenes)
         for (const TraceRun& run : scene.runs) {
             const bool first = &run == &scene.runs.front();
-            rows += fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(scene.name), escapedHtml(run.setting)) +
-                    number(double(run.evaluations) / double(scene.rays), "{:.2f}") +
-                    number(scene.ratioOf(run), "{:.3f}") + number(1e3 * run.seconds, "{:.0f}") +
-                    number(scene.runs[0].seconds / run.seconds, "{:.3f}") +
-                    number(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
-                    (scene.published && !first ? number(*scene.published, "{:.2f}") : std::string("<td data-value=''></td>")) +
-                    "</tr>\n";
+            rows +=
+                fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(scene.name), escapedHtml(run.setting)) +
+                number(double(run.evaluations) / double(scene.rays), "{:.2f}") +
+                number(scene.ratioOf(run), "{:.3f}") + number(1e3 * run.seconds, "{:.0f}") +
+                number(scene.runs[0].seconds / run.seconds, "{:.3f}") +
+                number(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
+                (scene.published && !first ? number(*scene.published, "{:.2f}")
+                                           : std::string("<td data-value=''></td>")) +
+                "</tr>\n";
         }
     return table(
-        "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>classic's over it</th><th>ms</th><th>classic's over "
+        "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>classic's over "
+        "it</th><th>ms</th><th>classic's over "
         "it</th><th>other hits, %</th><th>published ratio of times</th>",
         rows);
 }
@@ -54,7 +58,8 @@ std::string meansTable(const SphereTracing& found) {
             for (const TraceRun& other : scene.runs)
                 if (other.setting == run.setting) least = std::min(least, scene.ratioOf(other));
         rows += fmt::format("<tr><td>{}</td><td></td>", escapedHtml(run.setting)) +
-                number(geometricMeanRatio(found, run.setting), "{:.3f}") + number(least, "{:.3f}") + "</tr>\n";
+                number(geometricMeanRatio(found, run.setting), "{:.3f}") + number(least, "{:.3f}") +
+                "</tr>\n";
     }
     return table("<th>setting</th><th></th><th>geometric mean</th><th>least of all scenes</th>", rows);
 }
@@ -64,8 +69,10 @@ std::string candidatesTable(const SphereTracing& found) {
     for (const CandidateCount& c : found.candidates)
         rows += fmt::format("<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                             escapedHtml(c.scene), c.steps, c.pixels, c.wrong_last, c.wrong_screen);
-    return table("<th>scene</th><th></th><th>pixels</th><th>wrong, last point</th><th>wrong, screen-space candidate</th>",
-                 rows);
+    return table(
+        "<th>scene</th><th></th><th>pixels</th><th>wrong, last point</th><th>wrong, screen-space "
+        "candidate</th>",
+        rows);
 }
 
 std::string jumpsTable(const SphereTracing& found) {
@@ -73,9 +80,12 @@ std::string jumpsTable(const SphereTracing& found) {
     for (const JumpCount& j : found.jumps)
         rows += fmt::format("<tr><td>{}</td><td></td><td>{}</td>", escapedHtml(j.scene), j.pairs) +
                 number(j.median_before, "{:.3g}") + number(j.median_after, "{:.3g}") +
-                number(j.median_after > 0.0 ? j.median_before / j.median_after : INFINITY, "{:.1f}") + "</tr>\n";
-    return table("<th>scene</th><th></th><th>pairs of pixels</th><th>median jump</th><th>after 3 steps</th><th>falls by</th>",
-                 rows);
+                number(j.median_after > 0.0 ? j.median_before / j.median_after : INFINITY, "{:.1f}") +
+                "</tr>\n";
+    return table(
+        "<th>scene</th><th></th><th>pairs of pixels</th><th>median jump</th><th>after 3 steps</th><th>falls "
+        "by</th>",
+        rows);
 }
 
 std::string pruningTable(const SphereTracing& found) {
@@ -87,7 +97,8 @@ std::string pruningTable(const SphereTracing& found) {
                 number(p.seconds_whole / p.seconds_pruned, "{:.1f}") + number(p.build_seconds, "{:.3f}") +
                 fmt::format("<td>{}</td></tr>\n", p.differing);
     return table(
-        "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>s</th><th>pruned, s</th><th>times "
+        "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>s</th><th>pruned, "
+        "s</th><th>times "
         "faster</th><th>of it pruning, s, all threads</th><th>differing depths</th>",
         rows);
 }
@@ -95,9 +106,12 @@ std::string pruningTable(const SphereTracing& found) {
 std::string pictures(const SphereTracing& found) {
     std::string out;
     for (const FigureFile& picture : found.pictures)
-        out += fmt::format("<figure class='card'><img alt='{0}' src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-                           escapedHtml(picture.name),
-                           compare::base64({reinterpret_cast<const unsigned char*>(picture.bytes.data()), picture.bytes.size()}));
+        out += fmt::format(
+            "<figure class='card'><img alt='{0}' "
+            "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
+            escapedHtml(picture.name),
+            compare::base64(
+                {reinterpret_cast<const unsigned char*>(picture.bytes.data()), picture.bytes.size()}));
     return out.empty() ? out : "<h2>Pictures</h2><div class='pictures'>" + out + "</div>";
 }
 
@@ -108,10 +122,14 @@ std::string notes(const SphereTracing& found) {
 }
 
 constexpr const char* kWords =
-    "<p class='under'>Evaluations of the field a primary ray; those of cones are counted among the tile's rays. Times are "
-    "of tracing and shading, medians, all settings by turns. Other hits: pixels whose ray ends on nothing where classic "
-    "tracing ends on something, or the reverse, or at a depth that differs by more than thresholds allow. Published: "
-    "Keinert et al. 2014, on a GTX Titan and on scenes of theirs that are not published; ours are of the same kinds and "
+    "<p class='under'>Evaluations of the field a primary ray; those of cones are counted among the tile's "
+    "rays. Times are "
+    "of tracing and shading, medians, all settings by turns. Other hits: pixels whose ray ends on nothing "
+    "where classic "
+    "tracing ends on something, or the reverse, or at a depth that differs by more than thresholds allow. "
+    "Published: "
+    "Keinert et al. 2014, on a GTX Titan and on scenes of theirs that are not published; ours are of the "
+    "same kinds and "
     "are not made to match.</p>\n";
 
 }  // namespace
@@ -128,16 +146,19 @@ double geometricMeanRatio(const SphereTracing& found, const std::string& setting
 std::string sphereTracingHtml(const SphereTracing& found) {
     return fmt::format(
                "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
-               "content='width=device-width'><title>Sphere tracing</title><link rel='icon' href='data:,'><style>{}{}</style>"
-               "</head><body><main><h1>Sphere tracing</h1><p>edgewise {}, <code>edgewise figure sphere-tracing{} -o "
+               "content='width=device-width'><title>Sphere tracing</title><link rel='icon' "
+               "href='data:,'><style>{}{}</style>"
+               "</head><body><main><h1>Sphere tracing</h1><p>edgewise {}, <code>edgewise figure "
+               "sphere-tracing{} -o "
                "DIR</code>, CPU, {} run{}</p>\n",
-               compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "", found.runs,
-               found.runs == 1 ? "" : "s") +
+               compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "",
+               found.runs, found.runs == 1 ? "" : "s") +
            "<h2>Relaxation and cones: all scenes</h2>" + meansTable(found) + "<h2>Scene by scene</h2>" +
            runsTable(found.scenes) + kWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
            "<h2>Out of steps: which point is the hit</h2>" + candidatesTable(found) +
            "<h2>Discontinuity reduction</h2>" + jumpsTable(found) + "<h2>Pruning</h2>" + pruningTable(found) +
-           pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript + "</script></body></html>\n";
+           pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript +
+           "</script></body></html>\n";
 }
 
 std::string sphereTracingJson(const SphereTracing& found) {

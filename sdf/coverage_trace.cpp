@@ -72,7 +72,8 @@ class SceneDistance {
 };
 
 /// One step more, and the sample where the secant of the last two says that the surface is.
-SceneDistance::Sample surfaceBeyond(SceneDistance& distance, const SceneDistance::Sample& first, double step) {
+SceneDistance::Sample surfaceBeyond(SceneDistance& distance, const SceneDistance::Sample& first,
+                                    double step) {
     const SceneDistance::Sample second = distance(first.t + step);
     return distance(shading::secantRoot(first.t, first.distance, second.t, second.distance));
 }

@@ -11,9 +11,9 @@ struct CoverageHit {
     SurfaceHit surface;     ///< at the place where the last two distances say that it is
 };
 
-/// Goes on until the distance is within `reach` of the pixel's diameter there, then one step of that length through the
-/// surface. The two distances give the surface's place by the secant, and coverage falls with the distance there. Where they do
-/// not fall, that is the first of the two. Analytic shapes have distances too.
+/// Goes on until the distance is within `reach` of the pixel's diameter there, then one step of that length
+/// through the surface. The two distances give the surface's place by the secant, and coverage falls with the
+/// distance there. Where they do not fall, that is the first of the two. Analytic shapes have distances too.
 /// `tape`: the scene's tree, empty without one, of which `surfaces` was made.
 CoverageHit coverageAlong(const FieldScene& scene, const Tape& tape, const SceneTracer& surfaces,
                           const FieldRay& ray, double reach, int most_steps);

@@ -172,7 +172,8 @@ class Lowering {
         if (!cells.walls) return lipschitz;
         // On such a wall the bound would be 0, as on a surface.
         if (cells.least_margin == 0.0)
-            throw SceneError(node.path, "repeats a child that fills its cells and is not its own mirror image");
+            throw SceneError(node.path,
+                             "repeats a child that fills its cells and is not its own mirror image");
         lipschitz = std::max(lipschitz, raiseToBox(at, cells.box));
         numbers.insert(numbers.end(), cells.margin.begin(), cells.margin.end());
         return value(Code::withinWalls, at, numbers, std::max(lipschitz, at.slope));

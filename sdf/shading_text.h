@@ -1,5 +1,5 @@
-// shaders/shared/sdf_shading.glsl, sdf_path.glsl and sdf_lottes.glsl as C++: double in `shading`, and float as
-// GLSL has it in `shading_float`.
+// shaders/shared/sdf_shading.glsl, sdf_path.glsl and sdf_lottes.glsl as C++: double in `shading`, and float
+// as GLSL has it in `shading_float`.
 #pragma once
 
 #include <glm/glm.hpp>

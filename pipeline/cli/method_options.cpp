@@ -83,7 +83,8 @@ void addMethodOptions(CLI::App& command, MethodArguments& arguments) {
         .add_option("--memory", arguments.memory, "ceiling for the buffers, the image is tiled to fit [1024]")
         ->type_name("MIB");
     command.add_option("--seed", arguments.seed, "of stochastic methods [0]")->type_name("N");
-    command.add_option("--frames", arguments.frames, "of temporal methods; OUT is their mean [1]")->type_name("N");
+    command.add_option("--frames", arguments.frames, "of temporal methods; OUT is their mean [1]")
+        ->type_name("N");
     command
         .add_option(
             "--no-skip", arguments.no_skip,

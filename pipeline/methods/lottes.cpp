@@ -20,7 +20,8 @@ LottesSettings settingsOf(const MethodSpec& spec) {
     settings.scale = spec.numberOf("scale", settings.scale);
     settings.grain = spec.numberOf("grain", settings.grain);
     settings.disk = spec.parameter("weights", "gaussian") == "disk";
-    settings.spectrum = spec.parameter("spectrum", "blue") == "white" ? GrainSpectrum::kWhite : GrainSpectrum::kBlue;
+    settings.spectrum =
+        spec.parameter("spectrum", "blue") == "white" ? GrainSpectrum::kWhite : GrainSpectrum::kBlue;
     settings.coverage = spec.parameter("coverage", "on") == "on";
     return settings;
 }

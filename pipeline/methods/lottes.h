@@ -26,8 +26,8 @@ struct LottesRay {
     double coverage = 1.0;
 };
 
-/// Where the ray of a pixel lies in `frame`, from the pixel's corner, in [0, 1): the R2 sequence (Roberts 2018: steps
-/// of 1/g and 1/g^2, g^3 = g + 1) from a start that is drawn for each pixel and seed.
+/// Where the ray of a pixel lies in `frame`, from the pixel's corner, in [0, 1): the R2 sequence (Roberts
+/// 2018: steps of 1/g and 1/g^2, g^3 = g + 1) from a start that is drawn for each pixel and seed.
 glm::dvec2 lottesJitter(int x, int y, std::uint64_t frame, std::uint64_t seed);
 
 class LottesFrames {
@@ -39,9 +39,9 @@ class LottesFrames {
     /// Rays of the crop and of as much around it as the 11 rays of its pixels take.
     PixelBox window() const;
     std::vector<LottesRay> trace(std::uint64_t frame, sdf::RayCounts& counts) const;
-    /// The crop's pixels from the window's rays, with grain: sum(F coverage colour) / sum(F coverage) over the pixel's
-    /// own ray and its neighbours', rows of 3, 5 and 3. Where no ray has coverage, F alone weighs them; where F is 0
-    /// too, the pixel's own ray counts.
+    /// The crop's pixels from the window's rays, with grain: sum(F coverage colour) / sum(F coverage) over
+    /// the pixel's own ray and its neighbours', rows of 3, 5 and 3. Where no ray has coverage, F alone weighs
+    /// them; where F is 0 too, the pixel's own ray counts.
     std::vector<glm::dvec4> reconstruct(const std::vector<LottesRay>& rays, std::uint64_t frame) const;
 
   private:

@@ -17,7 +17,8 @@ constexpr int kRowReach[3] = {1, 2, 1};
 
 }  // namespace
 
-/// In units of 2^-64, which wrap around by themselves: 1/g = 0.7548776662466927..., 1/g^2 = 0.5698402909980532...
+/// In units of 2^-64, which wrap around by themselves: 1/g = 0.7548776662466927..., 1/g^2 =
+/// 0.5698402909980532...
 glm::dvec2 lottesJitter(int x, int y, std::uint64_t frame, std::uint64_t seed) {
     constexpr std::uint64_t kFirst = 0xc13fa9a902a6328fu, kSecond = 0x91e10da5c79e7b1cu;
     const std::uint64_t pixel =
@@ -88,15 +89,15 @@ glm::dvec4 LottesFrames::pixel(const std::vector<LottesRay>& rays, int x, int y)
     return all_sum > 1e-12 ? all / all_sum : at(x, y).color;
 }
 
-std::vector<glm::dvec4> LottesFrames::reconstruct(const std::vector<LottesRay>& rays, std::uint64_t frame) const {
+std::vector<glm::dvec4> LottesFrames::reconstruct(const std::vector<LottesRay>& rays,
+                                                  std::uint64_t frame) const {
     const PixelBox& crop = in_.film.crop;
     std::vector<glm::dvec4> pixels(static_cast<std::size_t>(crop.width()) * crop.height());
     tbb::parallel_for(crop.y0, crop.y1, [&](int y) {
         for (int x = crop.x0; x < crop.x1; ++x) {
-            const double grain =
-                settings_.grain > 0.0
-                    ? settings_.grain * grainAt(settings_.spectrum, x, y, frame, in_.options.seed)
-                    : 0.0;
+            const double grain = settings_.grain > 0.0 ? settings_.grain * grainAt(settings_.spectrum, x, y,
+                                                                                   frame, in_.options.seed)
+                                                       : 0.0;
             pixels[static_cast<std::size_t>(y - crop.y0) * crop.width() + (x - crop.x0)] =
                 pixel(rays, x, y) + glm::dvec4(glm::dvec3(grain), 0.0);
         }

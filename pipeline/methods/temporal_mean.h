@@ -19,8 +19,8 @@ class TemporalMean {
     glm::dvec3 deviation(std::size_t pixel) const;
     /// The root mean square over pixels and channels.
     double deviation() const;
-    /// Of the mean of all frames, likewise: half the difference of the means over even and odd frames, which sees
-    /// that low-discrepancy frames make up for each other. 0 with fewer than two frames.
+    /// Of the mean of all frames, likewise: half the difference of the means over even and odd frames, which
+    /// sees that low-discrepancy frames make up for each other. 0 with fewer than two frames.
     double deviationOfMean() const;
 
   private:

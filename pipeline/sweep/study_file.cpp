@@ -18,12 +18,11 @@ enum class Type { kText, kInteger, kNumber, kTriple };
 const std::map<std::string, Type> kLists{{"scenes", Type::kText},  {"methods", Type::kText},
                                          {"radii", Type::kNumber}, {"sigmas", Type::kNumber},
                                          {"sizes", Type::kText},   {"no_skip", Type::kText}};
-const std::map<std::string, Type> kOptions{{"reference", Type::kText},    {"runs", Type::kInteger},
-                                           {"budget", Type::kNumber},     {"device", Type::kText},
-                                           {"precision", Type::kText},    {"shading", Type::kText},
-                                           {"background", Type::kTriple}, {"threads", Type::kInteger},
-                                           {"memory", Type::kInteger},    {"seed", Type::kInteger},
-                                           {"frames", Type::kInteger}};
+const std::map<std::string, Type> kOptions{
+    {"reference", Type::kText},    {"runs", Type::kInteger},    {"budget", Type::kNumber},
+    {"device", Type::kText},       {"precision", Type::kText},  {"shading", Type::kText},
+    {"background", Type::kTriple}, {"threads", Type::kInteger}, {"memory", Type::kInteger},
+    {"seed", Type::kInteger},      {"frames", Type::kInteger}};
 const std::map<std::string, Type> kFilterKeys{
     {"name", Type::kText}, {"radius", Type::kNumber}, {"sigma", Type::kNumber}};
 const std::map<std::string, Type> kCameraKeys{
