@@ -12,9 +12,11 @@
 namespace edgewise {
 namespace {
 
-#ifdef EDGEWISE_HAS_VULKAN_FIELD
+#ifdef EDGEWISE_HAS_VULKAN
+constexpr bool kHasVulkan = true;
 constexpr FieldTracerMaker kVulkanTracer = makeVulkanFieldTracer;
 #else
+constexpr bool kHasVulkan = false;
 constexpr FieldTracerMaker kVulkanTracer = nullptr;
 #endif
 
@@ -98,7 +100,7 @@ MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const 
         throw InputError(fmt::format("method '{}'", spec.typed),
                          fmt::format("needs triangles, and {} is an SDF scene", in.scene.source));
     const DeviceChoice choice = choiceOf(spec, in);
-    const DeviceDecision decision = decideDevice(choice, kVulkanTracer != nullptr && !entry.field_on_cpu);
+    const DeviceDecision decision = decideDevice(choice, kHasVulkan && !entry.field_on_cpu);
     const bool asked = choice == DeviceChoice::kVulkan;
     tbb::task_arena arena(in.options.threads > 0 ? in.options.threads : tbb::task_arena::automatic);
     MethodResult result;
