@@ -2,6 +2,7 @@
 
 #include <glslang/SPIRV/spirv.hpp>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace edgewise::vulkan {
@@ -27,7 +28,7 @@ class Module {
 
     SpirvCost cost() {
         SpirvCost cost;
-        cost.variable_words = private_words_;
+        cost.array_words = private_words_;
         double largest = 0.0;
         // A function may be defined after its callers, so each is finished with a stack of its own.
         for (const std::uint32_t id : order_) {
@@ -35,7 +36,7 @@ class Module {
             cost.instructions += functions_[id].instructions;
             largest = std::max(largest, functions_[id].words);
         }
-        cost.variable_words += largest;
+        cost.array_words += largest;
         return cost;
     }
 
@@ -56,15 +57,19 @@ class Module {
                 break;
             case spv::OpTypeArray:
                 size_[operands[0]] = size_[operands[1]] * constant_[operands[2]];
+                arrays_.insert(operands[0]);
                 break;
             case spv::OpTypeStruct: {
                 double sum = 0.0;
-                for (const std::uint32_t member : operands.subspan(1)) sum += size_[member];
+                for (const std::uint32_t member : operands.subspan(1)) {
+                    sum += size_[member];
+                    if (arrays_.contains(member)) arrays_.insert(operands[0]);
+                }
                 size_[operands[0]] = sum;
                 break;
             }
             case spv::OpTypePointer:
-                size_[operands[0]] = size_[operands[2]];
+                if (arrays_.contains(operands[2])) size_[operands[0]] = size_[operands[2]];
                 break;
             case spv::OpConstant:
                 constant_[operands[1]] = operands[2];
@@ -111,6 +116,7 @@ class Module {
 
     std::unordered_map<std::uint32_t, double> size_, constant_;
     std::unordered_map<std::uint32_t, Function> functions_;
+    std::unordered_set<std::uint32_t> arrays_;  ///< types that are or hold one
     std::vector<std::uint32_t> order_;
     double private_words_ = 0.0;
     std::uint32_t function_ = 0;

@@ -9,8 +9,8 @@ namespace edgewise::vulkan {
 struct SpirvCost {
     /// Over all functions: instructions, with those of the functions that they call, call by call.
     double instructions = 0.0;
-    /// Of variables that are not in buffers, with those of called functions, call by call, in 32-bit words.
-    double variable_words = 0.0;
+    /// Of arrays that are not in buffers, with those of called functions, call by call, in 32-bit words.
+    double array_words = 0.0;
 };
 
 /// Of a valid module; functions do not call themselves.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <charconv>
 #include <set>
 
 #include "pipeline/error.h"
@@ -11,7 +11,9 @@
 #include "pipeline/vulkan/glsl_tokens.h"
 #include "pipeline/vulkan/macro_growth.h"
 #include "pipeline/vulkan/spirv_cost.h"
+#include "pipeline/vulkan/text_edits.h"
 #include "pipeline/vulkan/user_calls.h"
+#include "pipeline/vulkan/user_tables.h"
 #include "pipeline/vulkan/user_words.h"
 #include "sdf/map_header.h"
 
@@ -61,36 +63,6 @@ std::string withoutDirectives(std::string text) {
     return text;
 }
 
-/// Insertions and erasures by place in the text.
-class Edits {
-  public:
-    void insert(std::size_t at, std::string text) { edits_.emplace(at, Edit{0, std::move(text)}); }
-    void erase(std::size_t begin, std::size_t end) { edits_.emplace(begin, Edit{end - begin, {}}); }
-    /// Lines keep their numbers: ends of lines stay.
-    std::string apply(const std::string& text) const {
-        std::string result;
-        std::size_t at = 0;
-        for (const auto& [place, edit] : edits_) {
-            if (place < at) continue;  // within what was erased
-            result.append(text, at, place - at);
-            result += edit.text;
-            at = place + edit.erased;
-            result.append(
-                static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(place),
-                                                    text.begin() + static_cast<std::ptrdiff_t>(at), '\n')),
-                '\n');
-        }
-        return result.append(text, at);
-    }
-
-  private:
-    struct Edit {
-        std::size_t erased;
-        std::string text;
-    };
-    std::multimap<std::size_t, Edit> edits_;
-};
-
 class Preparation {
   public:
     Preparation(const sdf::GlslMap& map, int width, int height)
@@ -108,7 +80,9 @@ class Preparation {
         leaveOutFunctions();
         for (const GlslPart& part : parts_) {
             if (part.name == "map" || part.name == "albedo") freeParameters(part);
+            if (part.is_function) startLocals(part);
             if (!part.is_function) rewriteGlobal(part);
+            if (!part.is_function) readByComparisons(tokens_, part, edits_);
         }
         UserGlsl result;
         result.has_loops = countLoops();
@@ -228,8 +202,9 @@ class Preparation {
             i = tokens_[i].text == "layout" ? afterClosing(tokens_, i + 1) : i + 1;
             storage = true;
         }
-        while (i < part.last && isPrecision(tokens_[i].text)) ++i;
+        while (i < part.last && (isPrecision(tokens_[i].text) || tokens_[i].text == "const")) ++i;
         const std::size_t type = i;
+        if (type + 2 >= part.last && !storage) return;
         const bool block = type + 1 < part.last && tokens_[type + 1].text == "{";
         const bool opaque = type < part.last && isOpaqueType(tokens_[type].text);
         if (storage && (block || opaque || type + 2 >= part.last)) {
@@ -237,22 +212,59 @@ class Preparation {
             return;
         }
         if (storage) eraseTokens(part.first, type);
+        rewriteDeclared(type, part.last, storage);
+    }
+
+    /// From a declaration's type on: what has no value gets one. WebGL starts all with 0; what a device leaves
+    /// undefined may make anything of the whole expression.
+    void rewriteDeclared(std::size_t type, std::size_t last, bool input) {
         int brackets = 0;
-        for (std::size_t k = type + 1; k + 1 < part.last; ++k) {
+        const std::size_t behind_type = tokens_[type + 1].text == "[" ? afterClosing(tokens_, type + 1) : type + 1;
+        for (std::size_t k = behind_type; k + 1 < last; ++k) {
             const char c = tokens_[k].text[0];
-            brackets += (c == '(' || c == '{') - (c == ')' || c == '}');
-            if (brackets == 0 && tokens_[k].word) rewriteDeclared(k, type, storage);
+            brackets += (c == '(' || c == '{' || c == '[') - (c == ')' || c == '}' || c == ']');
+            const std::string_view before = tokens_[k - 1].text;
+            if (brackets != 0 || !tokens_[k].word || (k > behind_type && before != ",")) continue;
+            const std::size_t after = tokens_[k + 1].text == "[" ? afterClosing(tokens_, k + 1) : k + 1;
+            if (after >= tokens_.size()) return;
+            const std::string_view next = tokens_[after].text;
+            if (next != ";" && next != "," && next != "=") continue;
+            own_.insert(tokens_[k].text);
+            if (next == "=" || (!input && !isPlainType(tokens_[type].text))) continue;
+            startWith(k, type, after, behind_type, input);
         }
     }
-    /// A word outside of brackets is declared if the list goes on or a value follows.
-    void rewriteDeclared(std::size_t at, std::size_t type, bool storage) {
-        const std::size_t last = tokens_[at + 1].text == "[" ? afterClosing(tokens_, at + 1) - 1 : at;
-        if (last + 1 >= tokens_.size()) return;
-        const char next = tokens_[last + 1].text[0];
-        if (next != ';' && next != ',' && next != '=') return;
-        own_.insert(tokens_[at].text);
-        if (!storage || next == '=' || last > at) return;
-        edits_.insert(tokens_[at].end(), " = " + inputValue(tokens_[at].text, tokens_[type].text));
+    void startWith(std::size_t name, std::size_t type, std::size_t after, std::size_t behind_type, bool input) {
+        const std::string_view word = tokens_[type].text;
+        const bool array_name = after > name + 1, array_type = behind_type > type + 1;
+        if (!array_name && !array_type) {
+            const std::string value = input ? inputValue(tokens_[name].text, word) : fmt::format("{}(0)", word);
+            edits_.insert(tokens_[name].end(), " = " + value);
+            return;
+        }
+        // [ NUMBER ]
+        const std::size_t size = array_name ? name + 2 : type + 2, close = array_name ? after : behind_type;
+        unsigned count = 0;
+        std::from_chars(tokens_[size].text.data(), tokens_[size].end() + text_.data(), count);
+        if (close != size + 2 || array_name == array_type || count == 0 || count > kMostUserWords) return;
+        std::string values;
+        for (unsigned i = 0; i < count; ++i) values += fmt::format("{}{}(0)", i ? ", " : "", word);
+        edits_.insert(tokens_[after - 1].end(), fmt::format(" = {}[{}]({})", word, count, values));
+    }
+
+    /// Of a function: declarations at the beginnings of statements.
+    void startLocals(const GlslPart& part) {
+        for (std::size_t i = part.body + 1; i + 2 < part.last; ++i) {
+            const std::string_view before = tokens_[i - 1].text;
+            if (tokens_[i].text == "struct") i = afterClosing(tokens_, i + 2);
+            const bool begins = before == ";" || before == "{" || before == "}" || isPrecision(before);
+            if (i + 2 >= part.last || !begins || !isPlainType(tokens_[i].text)) continue;
+            std::size_t end = i;
+            while (end < part.last && tokens_[end].text != ";") ++end;
+            const Names globals = own_;
+            rewriteDeclared(i, std::min(end + 1, part.last), false);
+            own_ = globals;
+        }
     }
 
     struct Input {
@@ -355,9 +367,9 @@ void requireCheap(const std::vector<std::uint32_t>& spirv, const std::string& fi
         throw FailureError(file, fmt::format("the map is too long: with all functions in the place of their "
                                              "calls it has {:.3g} instructions, more than {}",
                                              cost.instructions, kMostUserInstructions));
-    if (cost.variable_words > kMostUserWords)
-        throw FailureError(file, fmt::format("the map's variables take {:.3g} words of 4 bytes, more than {}",
-                                             cost.variable_words, kMostUserWords));
+    if (cost.array_words > kMostUserWords)
+        throw FailureError(file, fmt::format("the map's arrays take {:.3g} words of 4 bytes, more than {}",
+                                             cost.array_words, kMostUserWords));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace edgewise::vulkan {
 inline constexpr unsigned kUserTurns = 4000;
 
 /// Limits of what a device's compiler is given: see SpirvCost.
-inline constexpr unsigned kMostUserInstructions = 200000, kMostUserWords = 4096;
+inline constexpr unsigned kMostUserInstructions = 80000, kMostUserWords = 1024;
 
 /// Source number of the user's text in `#line` and GlslError.
 inline constexpr int kUserSource = 1;

@@ -20,6 +20,14 @@ bool readsTexture(std::string_view word) {
 
 }  // namespace
 
+bool isPlainType(std::string_view word) {
+    static const Words words{"float", "int",   "uint",  "bool",  "vec2",   "vec3",   "vec4",   "ivec2",  "ivec3",
+                             "ivec4", "uvec2", "uvec3", "uvec4", "bvec2",  "bvec3",  "bvec4",  "mat2",   "mat3",
+                             "mat4",  "mat2x2", "mat2x3", "mat2x4", "mat3x2", "mat3x3", "mat3x4", "mat4x2", "mat4x3",
+                             "mat4x4"};
+    return words.contains(word);
+}
+
 bool isOpaqueType(std::string_view word) {
     if (word == "atomic_uint") return true;
     if (word.starts_with('i') || word.starts_with('u')) {

@@ -16,6 +16,9 @@ bool isFunctionEsLacks(std::string_view word);
 /// other words.
 std::string_view whyNotInMaps(std::string_view word, bool called);
 
+/// A scalar, a vector or a matrix of numbers or truths.
+bool isPlainType(std::string_view word);
+
 /// A sampler, an image, or the like.
 bool isOpaqueType(std::string_view word);
 
