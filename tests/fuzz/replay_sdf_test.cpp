@@ -1,4 +1,5 @@
-// Every kept SDF input of the fuzzers, each of its truncations, and JSON mutations of it, in ordinary test runs.
+// Every kept SDF input of the fuzzers, each of its truncations, and JSON mutations of it, in ordinary test
+// runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
