@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <glm/geometric.hpp>
-#include <regex>
 #include <set>
 
 #include "sdf/load_views.h"
@@ -80,13 +81,44 @@ class HeaderReader {
     std::set<std::string> seen_;
 };
 
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+/// The place behind the word, which may follow blanks; npos where something else does.
+std::size_t behindWord(std::string_view code, std::size_t at, std::string_view word) {
+    const std::size_t begin = std::min(code.find_first_not_of(kBlanks, at), code.size());
+    return code.substr(begin).starts_with(word) ? begin + word.size() : code.npos;
+}
+
+/// Whether "TYPE NAME (" stands somewhere.
+bool namesFunction(std::string_view code, std::string_view type, std::string_view name) {
+    const auto partOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (std::size_t at = code.find(type); at != code.npos; at = code.find(type, at + 1)) {
+        if (at > 0 && partOfWord(code[at - 1])) continue;
+        const std::size_t after = at + type.size();
+        if (after == code.size() || kBlanks.find(code[after]) == kBlanks.npos) continue;
+        const std::size_t behind = behindWord(code, after, name);
+        if (behind != code.npos && behindWord(code, behind, "(") != code.npos) return true;
+    }
+    return false;
+}
+
+/// Without a byte order mark, and with line ends that the compiler counts.
+std::string plainText(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::string plain(text);
+    for (std::size_t at = plain.find('\r'); at != plain.npos; at = plain.find('\r', at + 1))
+        if (at + 1 == plain.size() || plain[at + 1] != '\n') plain[at] = '\n';
+    return plain;
+}
+
 }  // namespace
 
-FieldScene loadGlslMap(std::string_view text, const std::string& file) {
-    if (text.size() > kMostMapBytes)
+FieldScene loadGlslMap(std::string_view original, const std::string& file) {
+    if (original.size() > kMostMapBytes)
         throw SceneError("the file",
-                         fmt::format("must have at most {} bytes, not {}", kMostMapBytes, text.size()));
-    if (text.find('\0') != std::string_view::npos) throw SceneError("the file", "has a NUL byte");
+                         fmt::format("must have at most {} bytes, not {}", kMostMapBytes, original.size()));
+    if (original.find('\0') != std::string_view::npos) throw SceneError("the file", "has a NUL byte");
+    const std::string text = plainText(original);
     FieldScene scene;
     scene.materials.push_back({.name = "default"});
     scene.glsl.emplace().file = file;
@@ -95,9 +127,9 @@ FieldScene loadGlslMap(std::string_view text, const std::string& file) {
     for (const HeaderLine& header : headerLines(text)) reader.read(header);
     if (!scene.lights.empty()) scene.ambient = glm::dvec3(0.15);  // as the default rig's
     const std::string code = withoutComments(text);
-    static const std::regex kMap(R"(\bfloat\s+map\s*\()"), kAlbedo(R"(\bvec3\s+albedo\s*\()");
-    if (!std::regex_search(code, kMap)) throw SceneError("the file", "defines no function float map(vec3 p)");
-    scene.glsl->has_albedo = std::regex_search(code, kAlbedo);
+    if (!namesFunction(code, "float", "map"))
+        throw SceneError("the file", "defines no function float map(vec3 p)");
+    scene.glsl->has_albedo = namesFunction(code, "vec3", "albedo");
     return scene;
 }
 

@@ -57,6 +57,22 @@ std::string usageOf(const std::vector<HeaderWord>& words) {
 
 }  // namespace
 
+namespace {
+
+/// What follows the block comments that a line goes on with or begins with.
+std::string_view behindBlocks(std::string_view line, bool& in_block) {
+    while (in_block || line.starts_with("/*")) {
+        if (!in_block) line.remove_prefix(2);
+        const std::size_t close = line.find("*/");
+        in_block = close == std::string_view::npos;
+        if (in_block) return {};
+        line = trimmed(line.substr(close + 2));
+    }
+    return line;
+}
+
+}  // namespace
+
 std::vector<HeaderLine> headerLines(std::string_view text) {
     std::vector<HeaderLine> lines;
     bool in_block = false;
@@ -65,13 +81,8 @@ std::vector<HeaderLine> headerLines(std::string_view text) {
         std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-        if (!in_block && line.starts_with("/*")) in_block = true, line.remove_prefix(2);
-        if (in_block) {
-            const std::size_t close = line.find("*/");
-            if (close == std::string_view::npos) continue;
-            in_block = false, line = trimmed(line.substr(close + 2));
-        }
-        if (line.empty()) continue;
+        line = behindBlocks(line, in_block);
+        if (line.empty() || line.starts_with('#') || line.starts_with("precision ")) continue;
         if (!line.starts_with("//")) break;
         const std::string_view comment = trimmed(line.substr(2));
         const std::size_t colon = comment.find(':');
@@ -80,6 +91,21 @@ std::vector<HeaderLine> headerLines(std::string_view text) {
     }
     return lines;
 }
+
+namespace {
+
+/// Up to the line's end, which is none behind a backslash.
+std::size_t lineSize(std::string_view text) {
+    std::size_t end = text.find('\n');
+    while (end != std::string_view::npos) {
+        const std::size_t before = text[end - 1] == '\r' && end > 1 ? end - 2 : end - 1;
+        if (text[before] != '\\') return end;
+        end = text.find('\n', end + 1);
+    }
+    return text.size();
+}
+
+}  // namespace
 
 std::string withoutComments(std::string_view text) {
     std::string code;
@@ -90,8 +116,7 @@ std::string withoutComments(std::string_view text) {
             continue;
         }
         const bool block = rest[1] == '*';
-        const std::size_t close = rest.find(block ? "*/" : "\n", 2);
-        const std::size_t size = close == std::string_view::npos ? rest.size() : close + (block ? 2 : 0);
+        const std::size_t size = block ? std::min(rest.find("*/", 2), rest.size() - 2) + 2 : lineSize(rest);
         code += ' ';
         code.append(static_cast<std::size_t>(std::count(rest.begin(), rest.begin() + size, '\n')), '\n');
         i += size;

@@ -48,8 +48,12 @@ GlslError parseMessage(const std::string& message) {
 [[noreturn]] void fail(const char* log) {
     constexpr std::string_view kMark = "ERROR: ";
     std::istringstream lines(log);
-    for (std::string line; std::getline(lines, line);)
-        if (line.starts_with(kMark)) throw parseMessage(line.substr(kMark.size()));
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(kMark)) continue;
+        std::string more;  // an indented line goes on
+        if (std::getline(lines, more) && more.starts_with(' ')) line += more;
+        throw parseMessage(line.substr(kMark.size()));
+    }
     throw GlslError(0, 0, "does not compile");
 }
 

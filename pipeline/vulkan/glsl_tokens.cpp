@@ -78,10 +78,13 @@ std::vector<GlslPart> glslParts(const std::vector<GlslToken>& tokens) {
                 part.is_function = true, part.body = i;
                 i = afterClosing(tokens, i), open = false;
             } else if (c == '(' || c == '{' || c == '[') {
-                const bool named = part.name.empty() && i > at + 1 && tokens[i - 1].word;
+                const std::size_t after = afterClosing(tokens, i);
+                // Behind an array's type, as in `float[2] f(vec3 p)`, comes the name.
+                const bool type = c == '[' && after < tokens.size() && tokens[after].word;
+                const bool named = part.name.empty() && i > at + 1 && tokens[i - 1].word && !type;
                 after_parameters = c == '(' && named;
                 if (named && c != '{') part.name = tokens[i - 1].text;
-                i = afterClosing(tokens, i);
+                i = after;
             } else {
                 open = c != ';';
                 if ((c == ';' || c == '=' || c == ',') && part.name.empty() && i > at)

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
 #include "pipeline/error.h"
 #include "pipeline/vulkan/compile_glsl.h"
 #include "pipeline/vulkan/glsl_tokens.h"
+#include "pipeline/vulkan/macro_growth.h"
+#include "pipeline/vulkan/spirv_cost.h"
+#include "pipeline/vulkan/user_calls.h"
+#include "pipeline/vulkan/user_words.h"
+#include "sdf/map_header.h"
 
 namespace edgewise::vulkan {
 namespace {
@@ -17,7 +21,6 @@ namespace {
 using Tokens = std::vector<GlslToken>;
 using Names = std::set<std::string_view>;
 
-const Names kEntryPoints{"main", "mainImage", "mainVR", "mainSound", "mainCubemap"};
 const Names kStorage{"uniform", "in", "out", "varying", "attribute", "flat", "smooth", "centroid"};
 
 [[noreturn]] void failAt(const std::string& file, int line, const std::string& why) {
@@ -32,22 +35,28 @@ const Names kStorage{"uniform", "in", "out", "varying", "attribute", "flat", "sm
     };
     std::string_view why = trimmed(error.what());
     if (why.starts_with("''")) why = trimmed(why.substr(why.find(':') + 1));
-    failAt(file, error.line, std::string(why));
+    constexpr std::size_t kMostOfMessage = 240;
+    failAt(file, error.line, std::string(why.substr(0, kMostOfMessage)));
 }
 
-/// Without #version, which must come first and is ours, and #extension, which must not come later.
-std::string withoutDirectives(std::string text, const Names& unwanted) {
-    for (std::size_t at = 0; at < text.size(); at = text.find('\n', at)) {
-        at = text.find_first_not_of("\n\r", at);
-        if (at == text.npos) break;
-        const std::size_t hash = text.find_first_not_of(" \t", at),
-                          end = std::min(text.find('\n', at), text.size());
-        if (hash >= end || text[hash] != '#') continue;
-        const std::size_t word = text.find_first_not_of(" \t", hash + 1);
-        for (const std::string_view name : unwanted)
-            if (word < end && std::string_view(text).substr(word).starts_with(name))
-                std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
-                          text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+/// Without what is ours to say (#version, #extension), what is nobody's (#pragma), and #line: errors name the
+/// file's own lines. Takes text without comments.
+std::string withoutDirectives(std::string text) {
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::size_t hash = text.find_first_not_of(" \t\r\v\f", at);
+        const std::size_t word =
+            hash < end && text[hash] == '#' ? text.find_first_not_of(" \t", hash + 1) : text.npos;
+        bool unwanted = false;
+        for (const std::string_view name : {"version", "extension", "pragma", "line"})
+            unwanted |= word < end && std::string_view(text).substr(word).starts_with(name);
+        for (std::size_t i = at; unwanted && i < end; ++i) {
+            const bool joins_next = i + 1 == end || (i + 2 == end && text[i + 1] == '\r');
+            if (text[i] == '\\' && joins_next && end < text.size())
+                end = std::min(text.find('\n', end + 1), text.size());
+            if (text[i] != '\n') text[i] = ' ';
+        }
+        at = end + 1;
     }
     return text;
 }
@@ -95,22 +104,25 @@ class Preparation {
     UserGlsl run() {
         requireShortStatements();
         requireMap();
-        keepFreeNames();
-        leaveOutEntryPoints();
-        for (const GlslPart& part : parts_)
+        renameWords();
+        leaveOutFunctions();
+        for (const GlslPart& part : parts_) {
+            if (part.name == "map" || part.name == "albedo") freeParameters(part);
             if (!part.is_function) rewriteGlobal(part);
+        }
         UserGlsl result;
         result.has_loops = countLoops();
         result.has_albedo = hasFunction("vec3", "albedo", {"vec3", "vec3"});
-        result.text = inputs() + fmt::format("#line 1 {}\n", kUserSource) + edits_.apply(text_) + "\n";
+        result.text = inputsText() + fmt::format("#line 1 {}\n", kUserSource) + edits_.apply(text_) + "\n";
         return result;
     }
 
   private:
     std::string preprocess() const {
         try {
-            return withoutDirectives(preprocessGlsl(withoutDirectives(map_.text, {"version", "extension"})),
-                                     {"version", "extension", "pragma"});
+            const std::string text = withoutDirectives(sdf::withoutComments(map_.text));
+            requireShortExpansion(text);
+            return preprocessGlsl(text);
         } catch (const GlslError& error) {
             failAt(map_.file, error);
         }
@@ -156,11 +168,14 @@ class Preparation {
         }
     }
 
-    /// Names in GLSL ES that are words of desktop GLSL's own.
-    void keepFreeNames() {
-        static const Names kDesktopWords{"buffer", "shared", "precise"};
+    /// Names that GLSL ES leaves free, and functions that are built into desktop GLSL alone.
+    void renameWords() {
+        Names own_functions;
+        for (const GlslPart& part : parts_)
+            if (part.is_function && isFunctionEsLacks(part.name)) own_functions.insert(part.name);
         for (const GlslToken& token : tokens_)
-            if (kDesktopWords.contains(token.text)) edits_.insert(token.begin, "ew_");
+            if (token.word && (isFreeNameInEs(token.text) || own_functions.contains(token.text)))
+                edits_.insert(token.begin, "ew_");
     }
 
     void requireMap() const {
@@ -171,45 +186,12 @@ class Preparation {
         throw InputError(map_.file, "there is no `float map(vec3 p)`");
     }
 
-    /// Functions that the part names.
-    Names calls(const GlslPart& part, const std::map<std::string_view, Names>& known) const {
-        Names names;
-        for (std::size_t i = part.is_function ? part.body : part.first; i < part.last; ++i)
-            if (tokens_[i].word && known.contains(tokens_[i].text)) names.insert(tokens_[i].text);
-        return names;
-    }
-    static void reach(std::string_view from, const std::map<std::string_view, Names>& graph, Names& seen) {
-        if (!seen.insert(from).second) return;
-        for (const std::string_view to : graph.at(from)) reach(to, graph, seen);
-    }
-
-    void leaveOutEntryPoints() {
-        std::map<std::string_view, Names> graph;
-        for (const GlslPart& part : parts_)
-            if (part.is_function) graph[part.name];
-        Names called, from_globals;
-        for (const GlslPart& part : parts_) {
-            const Names names = calls(part, graph);
-            if (part.is_function) {
-                graph[part.name].insert(names.begin(), names.end());
-                called.insert(names.begin(), names.end());
-            } else if (std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(part.first),
-                                   tokens_.begin() + static_cast<std::ptrdiff_t>(part.last),
-                                   [](const GlslToken& t) { return t.text == "="; })) {
-                from_globals.insert(names.begin(), names.end());
-            }
-        }
-        Names shown, wanted;
-        for (const auto& [name, unused] : graph) {
-            if (kEntryPoints.contains(name))
-                reach(name, graph, shown);
-            else if (!called.contains(name) || name == "map" || name == "albedo")
-                reach(name, graph, wanted);
-        }
-        for (const std::string_view name : from_globals) reach(name, graph, wanted);
-        for (const GlslPart& part : parts_)
-            if (part.is_function && shown.contains(part.name) && !wanted.contains(part.name))
-                eraseTokens(part.first, part.last);
+    void leaveOutFunctions() {
+        const UserCalls calls = userCalls(tokens_, parts_);
+        for (const RefusedWord& word : calls.refused)
+            failAt(map_.file, tokens_[word.token].line,
+                   fmt::format("{}: {}", tokens_[word.token].text, word.why));
+        for (const std::size_t part : calls.left_out) eraseTokens(parts_[part].first, parts_[part].last);
     }
 
     void eraseTokens(std::size_t first, std::size_t last) {
@@ -218,63 +200,84 @@ class Preparation {
 
     /// The values of inputs that a text may declare itself.
     std::string inputValue(std::string_view name, std::string_view type) const {
+        for (const Input& input : inputs())
+            if (input.name == name && input.type == type) return input.value;
+        if (name == "iResolution" && type == "vec2") return fmt::format("vec2({}, {})", width_, height_);
         if (name == "time" || name == "u_time") return fmt::format("{}({})", type, map_.time);
         if ((name == "resolution" || name == "u_resolution") && type == "vec2")
             return fmt::format("vec2({}, {})", width_, height_);
         return fmt::format("{}(0)", type);
     }
 
+    /// Our declarations of these functions have no qualifiers, which must agree.
+    void freeParameters(const GlslPart& part) {
+        const std::size_t open = nameToken(part) + 1;
+        if (open >= part.last || tokens_[open].text != "(") return;
+        for (std::size_t i = open; i < afterClosing(tokens_, open); ++i)
+            if (tokens_[i].text == "const" || isPrecision(tokens_[i].text)) eraseTokens(i, i + 1);
+    }
+    static bool isPrecision(std::string_view word) {
+        return word == "highp" || word == "mediump" || word == "lowp";
+    }
+
+    /// What a stage before or the program would give a value becomes a plain global.
     void rewriteGlobal(const GlslPart& part) {
         std::size_t i = part.first;
         bool storage = false;
-        while (i < part.last) {
-            if (tokens_[i].text == "layout")
-                i = afterClosing(tokens_, i + 1);
-            else if (!kStorage.contains(tokens_[i].text))
-                break;
-            else
-                ++i;
+        while (i < part.last && (tokens_[i].text == "layout" || kStorage.contains(tokens_[i].text))) {
+            i = tokens_[i].text == "layout" ? afterClosing(tokens_, i + 1) : i + 1;
             storage = true;
         }
-        while (i < part.last &&
-               (tokens_[i].text == "highp" || tokens_[i].text == "mediump" || tokens_[i].text == "lowp"))
-            ++i;
-        if (!storage) {
-            if (i + 1 < part.last) own_.insert(part.name);
-            return;
-        }
-        const std::string_view type = i < part.last ? tokens_[i].text : std::string_view();
-        if (inputNames().contains(part.name) || type.starts_with("sampler") || i + 2 >= part.last) {
+        while (i < part.last && isPrecision(tokens_[i].text)) ++i;
+        const std::size_t type = i;
+        const bool block = type + 1 < part.last && tokens_[type + 1].text == "{";
+        const bool opaque = type < part.last && isOpaqueType(tokens_[type].text);
+        if (storage && (block || opaque || type + 2 >= part.last)) {
             eraseTokens(part.first, part.last);
             return;
         }
-        own_.insert(part.name);
-        eraseTokens(part.first, i);
-        for (std::size_t k = i + 1; k + 1 < part.last; ++k)
-            if (tokens_[k].word && (tokens_[k + 1].text == ";" || tokens_[k + 1].text == ","))
-                edits_.insert(tokens_[k].end(), " = " + inputValue(tokens_[k].text, type));
+        if (storage) eraseTokens(part.first, type);
+        int brackets = 0;
+        for (std::size_t k = type + 1; k + 1 < part.last; ++k) {
+            const char c = tokens_[k].text[0];
+            brackets += (c == '(' || c == '{') - (c == ')' || c == '}');
+            if (brackets == 0 && tokens_[k].word) rewriteDeclared(k, type, storage);
+        }
+    }
+    /// A word outside of brackets is declared if the list goes on or a value follows.
+    void rewriteDeclared(std::size_t at, std::size_t type, bool storage) {
+        const std::size_t last = tokens_[at + 1].text == "[" ? afterClosing(tokens_, at + 1) - 1 : at;
+        if (last + 1 >= tokens_.size()) return;
+        const char next = tokens_[last + 1].text[0];
+        if (next != ';' && next != ',' && next != '=') return;
+        own_.insert(tokens_[at].text);
+        if (!storage || next == '=' || last > at) return;
+        edits_.insert(tokens_[at].end(), " = " + inputValue(tokens_[at].text, tokens_[type].text));
     }
 
-    static const Names& inputNames() {
-        static const Names names{"iTime",       "iGlobalTime", "iTimeDelta", "iFrameRate", "iSampleRate",
-                                 "iResolution", "iMouse",      "iDate",      "iFrame"};
-        return names;
+    struct Input {
+        std::string type, name, value;
+    };
+    std::vector<Input> inputs() const {
+        const std::string size = fmt::format("vec3({}, {}, 1.0)", width_, height_);
+        return {{"float", "iTime", fmt::format("float({})", map_.time)},
+                {"float", "iGlobalTime", fmt::format("float({})", map_.time)},
+                {"float", "iTimeDelta", "0.0"},
+                {"float", "iFrameRate", "60.0"},
+                {"float", "iSampleRate", "44100.0"},
+                {"vec3", "iResolution", size},
+                {"vec4", "iMouse", "vec4(0.0)"},
+                {"vec4", "iDate", "vec4(0.0)"},
+                {"int", "iFrame", "0"},
+                {"float[4]", "iChannelTime", "float[4](0.0, 0.0, 0.0, 0.0)"},
+                {"vec3[4]", "iChannelResolution", "vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0))"}};
     }
-    std::string inputs() const {
-        const std::array<std::array<std::string, 3>, 9> all{{
-            {"float", "iTime", fmt::format("float({})", map_.time)},
-            {"float", "iGlobalTime", fmt::format("float({})", map_.time)},
-            {"float", "iTimeDelta", "0.0"},
-            {"float", "iFrameRate", "60.0"},
-            {"float", "iSampleRate", "44100.0"},
-            {"vec3", "iResolution", fmt::format("vec3({}, {}, 1.0)", width_, height_)},
-            {"vec4", "iMouse", "vec4(0.0)"},
-            {"vec4", "iDate", "vec4(0.0)"},
-            {"int", "iFrame", "0"},
-        }};
+    /// Those that the text does not declare itself.
+    std::string inputsText() const {
         std::string text;
-        for (const auto& [type, name, value] : all)
-            if (!own_.contains(name)) text += fmt::format("const {} {} = {};\n", type, name, value);
+        for (const Input& input : inputs())
+            if (!own_.contains(input.name))
+                text += fmt::format("const {} {} = {};\n", input.type, input.name, input.value);
         return text;
     }
 
@@ -325,12 +328,48 @@ UserGlsl prepareUserGlsl(const sdf::GlslMap& map, int width, int height) {
     return Preparation(map, width, height).run();
 }
 
+namespace {
+
+/// The line where the last function of that name begins.
+int lineOf(const std::string& shader, std::string_view name) {
+    const Tokens tokens = glslTokens(shader);
+    int line = 0;
+    for (const GlslPart& part : glslParts(tokens))
+        if (part.is_function && part.name == name) line = tokens[part.first].line;
+    return line;
+}
+
+/// What is found when all is linked has no place; our own text is not recursive.
+[[noreturn]] void failLinking(const std::string& shader, const std::string& file, const GlslError& error) {
+    constexpr std::string_view kMark = " calling ";  // "... Recursion detected: f(vf3; calling g(vf3;"
+    const std::string_view why = error.what();
+    const std::size_t mark = why.find(kMark);
+    if (why.find("Recursion") == why.npos || mark == why.npos) failAt(file, error);
+    const std::string_view callee = why.substr(mark + kMark.size()), name = callee.substr(0, callee.find('('));
+    failAt(file, lineOf(shader, name), fmt::format("{} calls itself, which GLSL does not allow", name));
+}
+
+void requireCheap(const std::vector<std::uint32_t>& spirv, const std::string& file) {
+    const SpirvCost cost = spirvCost(spirv);
+    if (cost.instructions > kMostUserInstructions)
+        throw FailureError(file, fmt::format("the map is too long: with all functions in the place of their "
+                                             "calls it has {:.3g} instructions, more than {}",
+                                             cost.instructions, kMostUserInstructions));
+    if (cost.variable_words > kMostUserWords)
+        throw FailureError(file, fmt::format("the map's variables take {:.3g} words of 4 bytes, more than {}",
+                                             cost.variable_words, kMostUserWords));
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> compileWithUserGlsl(const std::string& shader, const std::string& file) {
     try {
-        return compileGlsl(shader);
+        std::vector<std::uint32_t> spirv = compileGlsl(shader);
+        requireCheap(spirv, file);
+        return spirv;
     } catch (const GlslError& error) {
-        // What is found when all is linked (recursion) has no place; our own text has none of it.
-        if (error.source == kUserSource || error.line == 0) failAt(file, error);
+        if (error.line == 0) failLinking(shader, file, error);
+        if (error.source == kUserSource) failAt(file, error);
         throw FailureError(file, fmt::format("the shader around it does not compile (line {}): {}",
                                              error.line, error.what()));
     }
