@@ -83,7 +83,7 @@ class CpuFieldTracer : public FieldTracer {
                                    window.pixels.y0 + static_cast<int>(i / width));
             const glm::dvec2 within = window.positions_px[i] - pixel;
             if (std::min(within.x, within.y) >= 0.0 && std::max(within.x, within.y) < 1.0) continue;
-            settings.prepass = settings.prune = false;
+            settings.prepass = false;
         }
         return settings;
     }
@@ -91,7 +91,7 @@ class CpuFieldTracer : public FieldTracer {
     void traceTiles(const FieldWindow& window, std::vector<sdf::TraceHit>& hits) {
         const sdf::TraceSettings settings = tileSettings(window);
         const sdf::TileSides sides = sdf::TileSides::forSamples(window.per_side);
-        const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides);
+        const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides, &tracer_.cells());
         const PixelBox& box = window.pixels;
         const int side = sides.top_px, x0 = tileOf(box.x0, side), x1 = tileOf(box.x1 - 1, side) + 1;
         const int y0 = tileOf(box.y0, side), y1 = tileOf(box.y1 - 1, side) + 1;
@@ -174,9 +174,9 @@ class CpuFieldTracer : public FieldTracer {
         counts["instructions"] = counts_.instructions, counts["tape_passes"] = counts_.passes;
         counts["tiles"] = counts_.leaf_tiles + counts_.empty_tiles;
         counts["tiles_empty"] = counts_.empty_tiles;
-        counts["pruned_tapes"] = counts_.prune.tapes;
-        counts["prune_instructions"] = counts_.prune.instructions;
-        counts["prune_microseconds"] = static_cast<std::uint64_t>(counts_.prune.seconds * 1e6);
+        counts["pruned_tapes"] = tracer_.cells().counts().tapes;
+        counts["prune_instructions"] = tracer_.cells().counts().instructions;
+        counts["prune_microseconds"] = static_cast<std::uint64_t>(tracer_.cells().counts().seconds * 1e6);
         counts["shadow_rays"] = ray_counts_.shadow, counts["reflection_rays"] = ray_counts_.reflection;
         counts["refraction_rays"] = ray_counts_.refraction;
         counts["secondary_evaluations"] = ray_counts_.evaluations;
@@ -208,7 +208,7 @@ class CpuFieldTracer : public FieldTracer {
         const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
         return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
                            asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,
-                           counts_.prune.tapes);
+                           tracer_.cells().counts().tapes);
     }
 
     const MethodInput in_;

@@ -54,9 +54,9 @@ EDGEWISE_FN void step(const Instruction& i, const double* numbers, Slots<R>& s) 
 
 /// The value at p.
 template <class R>
-inline R run(const Tape& tape, const Vec3<R>& p, Slots<R>& slots) {
+inline R run(const TapeView& tape, const Vec3<R>& p, Slots<R>& slots) {
     slots.position[0] = p;
-    for (const Instruction& i : tape.instructions) step(i, tape.numbers.data() + i.numbers, slots);
+    for (const Instruction& i : tape.instructions) step(i, tape.numbers + i.numbers, slots);
     return slots.value[0];
 }
 

@@ -2,9 +2,11 @@
 // out.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
+#include <vector>
 
-#include "sdf/tape.h"
+#include "sdf/tape_lanes.h"
 
 namespace edgewise::sdf {
 
@@ -19,5 +21,10 @@ inline constexpr double kDoubleRounding = 0x1p-53, kSingleRounding = 0x1p-24;
 /// this.
 Tape pruneTape(const Tape& tape, const glm::dvec3& centre_world, double radius,
                double rounding = kDoubleRounding);
+
+/// Eight at a time, in double: appends the instructions of each ball's shorter tape to its own list. Their
+/// numbers are the given tape's.
+void pruneInto(const TapeView& tape, int positions, int values, const LanePoints& centres_world,
+               double radius, std::array<std::vector<Instruction>, kPointLanes>& shorter);
 
 }  // namespace edgewise::sdf

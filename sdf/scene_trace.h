@@ -2,6 +2,7 @@
 // closed form.
 #pragma once
 
+#include "sdf/cell_tapes.h"
 #include "sdf/field_scene.h"
 #include "sdf/surface_tracer.h"
 #include "sdf/tape.h"
@@ -32,12 +33,16 @@ class SceneTracer : public SurfaceTracer {
     /// -1 within the field's solid.
     double signAt(const glm::dvec3& p_world) const;
 
+    /// The tape's shorter forms where they pay.
+    const CellTapes& cells() const { return *cells_; }
+
   private:
     glm::dvec3 normalAt(const glm::dvec3& p_world) const;
 
     const FieldScene& scene_;
     const Tape& tape_;
     TraceSettings settings_;
+    std::shared_ptr<const CellTapes> cells_;
 };
 
 }  // namespace edgewise::sdf

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,14 @@ struct Instruction {
     double lipschitz = 1.0;
 };
 
+/// Instructions whose numbers lie elsewhere: what evaluators take, a whole tape or a shortened one.
+struct TapeView {
+    std::span<const Instruction> instructions;
+    const double* numbers = nullptr;
+
+    std::size_t size() const { return instructions.size(); }
+};
+
 /// The world's position is position slot 0; the result is value slot 0.
 struct Tape {
     std::vector<Instruction> instructions;
@@ -38,6 +47,7 @@ struct Tape {
     double lipschitz = 1.0;         ///< of the whole
 
     std::size_t size() const { return instructions.size(); }
+    operator TapeView() const { return {instructions, numbers.data()}; }
 };
 
 /// What an instruction is, for those that print or analyse it.
