@@ -10,17 +10,6 @@
 namespace edgewise::sdf {
 namespace {
 
-/// The ray from its end to its start.
-FieldRay reversed(const FieldRay& ray, double t_end) {
-    FieldRay back = ray;
-    back.origin_world = ray.origin_world + ray.direction_world * t_end;
-    back.direction_world = -ray.direction_world;
-    back.t_min = 0.0, back.t_max = t_end - ray.t_min;
-    back.pixel_radius = ray.pixel_radius + ray.pixel_slope * t_end;
-    back.pixel_slope = -ray.pixel_slope;
-    return back;
-}
-
 /// A cube around what the scene holds and where it is seen from, and some of what lies beyond.
 std::shared_ptr<const CellTapes> cellsOf(const FieldScene& scene, const Tape& tape, bool prune) {
     glm::dvec3 low(scene.bounds.low[0], scene.bounds.low[1], scene.bounds.low[2]);
@@ -46,12 +35,24 @@ bool SceneTracer::withinBound(FieldRay& ray) const {
     return ray.t_min < ray.t_max;
 }
 
-/// From within a convex solid what is met first from outside, backwards, is what would be met last.
+FieldRay SceneTracer::reversed(const FieldRay& ray, double t_end) {
+    FieldRay back = ray;
+    back.origin_world = ray.origin_world + ray.direction_world * t_end;
+    back.direction_world = -ray.direction_world;
+    back.t_min = 0.0, back.t_max = t_end - ray.t_min;
+    back.pixel_radius = ray.pixel_radius + ray.pixel_slope * t_end;
+    back.pixel_slope = -ray.pixel_slope;
+    return back;
+}
+
+bool SceneTracer::backwards(const FieldRay& ray, const FieldRay& part, double sign) const {
+    return sign < 0.0 && settings_.convex && scene_.convex && part.t_max < ray.t_max;
+}
+
 TraceHit SceneTracer::traceField(const FieldRay& ray, double sign) const {
     FieldRay part = ray;
     if (!withinBound(part)) return {TraceEnd::kFar, ray.t_max, 0.0, 0, 0, 0};
-    const bool through = sign < 0.0 && settings_.convex && scene_.convex && part.t_max < ray.t_max;
-    if (!through) return traceRay(*cells_, part, settings_, sign);
+    if (!backwards(ray, part, sign)) return traceRay(*cells_, part, settings_, sign);
     TraceHit hit = traceRay(*cells_, reversed(ray, part.t_max), settings_, 1.0);
     hit.t = part.t_max - hit.t;
     return hit;

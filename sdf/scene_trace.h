@@ -24,6 +24,11 @@ class SceneTracer : public SurfaceTracer {
     TraceHit traceField(const FieldRay& ray, double sign) const;
     /// Shortens a ray to the convex bound, if the scene has one; false: it misses it, and so the field.
     bool withinBound(FieldRay& ray) const;
+    /// From within a convex solid what is met first from outside, backwards, is what would be met last:
+    /// whether `part`, the ray within the bound, is traced backwards, with sign 1.
+    bool backwards(const FieldRay& ray, const FieldRay& part, double sign) const;
+    /// The ray from its end to its start.
+    static FieldRay reversed(const FieldRay& ray, double t_end);
     /// The closed forms' nearest, where it is nearer than `nearest`.
     void meetAnalytic(const FieldRay& ray, SurfaceHit& nearest) const;
     /// What is known of a hit of the field: where it is, its normal, and of the tree's winning branch the
