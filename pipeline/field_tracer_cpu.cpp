@@ -16,6 +16,8 @@
 namespace edgewise {
 namespace {
 
+constexpr const char* kNoBound = "the field changes faster than its bound says";
+
 int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
 }
@@ -24,12 +26,12 @@ class CpuFieldTracer : public FieldTracer {
   public:
     CpuFieldTracer(const MethodInput& in, const FieldSettings& settings)
         : in_(in),
-          settings_(settings),
+          settings_(trustedSettings(*in.scene.field, settings.trace)),
           scene_(*in.scene.field),
           tape_(loweredTree(requireTree("tracing", in.scene))),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
-          tracer_(scene_, tape_, settings.trace),
-          shader_(fieldShading(in, settings.trace, false), tracer_) {
+          tracer_(scene_, tape_, settings_),
+          shader_(fieldShading(in, settings_, false), tracer_) {
         sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
         setup_seconds_ = watch_.lap();
     }
@@ -76,7 +78,7 @@ class CpuFieldTracer : public FieldTracer {
 
     /// What may be asked of tiles: positions elsewhere than in their pixels are in no tile's beam.
     sdf::TraceSettings tileSettings(const FieldWindow& window) const {
-        sdf::TraceSettings settings = settings_.trace;
+        sdf::TraceSettings settings = settings_;
         const int width = window.pixels.width();
         for (std::size_t i = 0; i < window.positions_px.size(); ++i) {
             const glm::dvec2 pixel(window.pixels.x0 + static_cast<int>(i % width),
@@ -183,7 +185,7 @@ class CpuFieldTracer : public FieldTracer {
     }
 
     void reportPlan(MethodResult& result) const {
-        const sdf::TraceSettings& t = settings_.trace;
+        const sdf::TraceSettings& t = settings_;
         const bool field = tape_.size() > 0;
         result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
         result.plan.push_back({"prune", t.prune && field, pruneWords(field)});
@@ -197,14 +199,16 @@ class CpuFieldTracer : public FieldTracer {
     }
     std::string prepassWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!settings_.trace.prepass) return "switched off";
+        if (!scene_.bound_holds) return kNoBound;
+        if (!settings_.prepass) return "switched off";
         return fmt::format("{} cones with {} evaluations; {} of {} tiles are empty", counts_.cones,
                            counts_.cone_evaluations, counts_.empty_tiles,
                            counts_.leaf_tiles + counts_.empty_tiles);
     }
     std::string pruneWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!settings_.trace.prune) return "switched off";
+        if (!scene_.bound_holds) return kNoBound;
+        if (!settings_.prune) return "switched off";
         const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
         return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
                            asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,
@@ -212,7 +216,7 @@ class CpuFieldTracer : public FieldTracer {
     }
 
     const MethodInput in_;
-    const FieldSettings settings_;
+    const sdf::TraceSettings settings_;
     const sdf::FieldScene& scene_;
     Stopwatch watch_;
     const sdf::Tape tape_;

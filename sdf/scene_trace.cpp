@@ -24,6 +24,13 @@ std::shared_ptr<const CellTapes> cellsOf(const FieldScene& scene, const Tape& ta
 
 }  // namespace
 
+TraceSettings trustedSettings(const FieldScene& scene, TraceSettings settings) {
+    if (scene.bound_holds) return settings;
+    settings.relaxation = Relaxation::kNone;
+    settings.prepass = settings.prune = false;
+    return settings;
+}
+
 SceneTracer::SceneTracer(const FieldScene& scene, const Tape& tape, const TraceSettings& settings)
     : scene_(scene), tape_(tape), settings_(settings), cells_(cellsOf(scene, tape, settings.prune)) {}
 

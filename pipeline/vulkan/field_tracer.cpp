@@ -34,14 +34,9 @@ glm::dvec4 sphereAround(const sdf::Box& box, double margin) {
     return {0.5 * (low + high), 0.5 * glm::distance(low, high) + margin};
 }
 
-/// What rests on the field's bound is off where that does not hold.
 sdf::TraceSettings settingsFor(const MethodInput& input, sdf::TraceSettings trace) {
     trace.epsilon = std::max(trace.epsilon, kFloatEpsilon);
-    if (!input.scene.field->bound_holds) {
-        trace.relaxation = sdf::Relaxation::kNone;
-        trace.prepass = trace.prune = false;
-    }
-    return trace;
+    return sdf::trustedSettings(*input.scene.field, trace);
 }
 
 class VulkanFieldTracer : public FieldTracer {
