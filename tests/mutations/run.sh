@@ -13,7 +13,7 @@ readonly here
 # sizes take hours.
 readonly asked='-*MeetTheHardCases*:Shrink*:*Nightly*'
 readonly programs=(sdf property fuzz analytic exact)
-readonly copied=(CMakeLists.txt LICENSE README.md analytic cmake data pipeline sdf shaders tests)
+readonly copied=(CMakeLists.txt LICENSE README.md analytic cmake data paper_figures pipeline sdf shaders tests)
 
 fail() {
     printf 'mutations: error: %s\n' "$*" >&2

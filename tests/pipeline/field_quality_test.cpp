@@ -52,45 +52,52 @@ bool isShown(const FieldSamples& samples, const FieldSamples& truth, int x, int 
     return false;
 }
 
+/// Pixels whose hit is in the air, farther than half a pixel from any surface; of them those whose normal
+/// nothing near them has; pixels where a surface is missing.
 struct Wrong {
-    int normals = 0, lost = 0;
+    int air = 0, normals = 0, lost = 0;
 };
-/// Pixels whose normal nothing near them has, and pixels where a surface is missing.
-Wrong wrongPixels(const FieldSamples& samples, const FieldSamples& truth, int width, int height) {
+Wrong wrongPixels(const FieldSamples& samples, const FieldSamples& truth, double half_pixel, int width,
+                  int height) {
     Wrong wrong;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * width + x;
             const bool hit = samples.surface[i] != kNone;
+            // Pixels beside the axis are seen under less than the middle's angle.
+            const bool air = hit && samples.residual[i] > half_pixel * samples.depth[i];
             wrong.lost += !hit && truth.surface[i] != kNone;
-            wrong.normals += hit && !isShown(samples, truth, x, y, width, height);
+            wrong.air += air, wrong.normals += air && !isShown(samples, truth, x, y, width, height);
         }
     return wrong;
 }
 
-/// Figure 8: classic steps, 64 of them.
+/// Figure 8: 64 steps without cones. What is out of steps and near nothing is shown as the background.
 TEST(FieldQuality, TheScreenCandidateLeavesNoGhostSilhouette) {
-    ShippedPicture picture("thin", 320, 180);
+    ShippedPicture picture("thin", 192, 108);
     FieldSettings settings;
     settings.trace.relaxation = sdf::Relaxation::kNone;
     settings.trace.prepass = false;
     settings.trace.most_steps = 60000;
     const FieldSamples truth = picture.trace(settings);
+    const double half_pixel = std::tan(0.5 * picture.camera.camera.yfov) / picture.height();
     settings.trace.most_steps = 64;
     const auto count = [&](bool screen, sdf::Relaxation relaxation) {
         settings.trace.screen_candidate = screen, settings.trace.relaxation = relaxation;
-        return wrongPixels(picture.trace(settings), truth, picture.width(), picture.height());
+        return wrongPixels(picture.trace(settings), truth, half_pixel, picture.width(), picture.height());
     };
     for (const auto& [name, relaxation] : {std::pair("classic", sdf::Relaxation::kNone),
                                            {"keinert 1.2", sdf::Relaxation::kKeinert},
                                            {"auto", sdf::Relaxation::kAuto}}) {
         const Wrong last = count(false, relaxation), screen = count(true, relaxation);
-        std::printf("%-12s last point: %d wrong normals, %d lost; candidate: %d wrong, %d lost\n", name,
-                    last.normals, last.lost, screen.normals, screen.lost);
+        std::printf(
+            "%-12s last point: %d in the air, %d with a wrong normal; candidate: %d, %d, and %d lost\n", name,
+            last.air, last.normals, screen.air, screen.normals, screen.lost);
         if (relaxation == sdf::Relaxation::kNone) {
             EXPECT_GT(last.normals, 100);
         }
-        EXPECT_LE(20 * screen.normals, last.normals);
+        EXPECT_GT(last.air, 50) << name;
+        EXPECT_EQ(screen.air, 0) << name;
     }
 }
 
@@ -124,7 +131,7 @@ TEST(FieldQuality, DiscontinuitiesFallTenfoldInThreeSteps) {
         }
     std::printf("%zu pairs, median jump %.2e -> %.2e: %.1f times less\n", before.size(), median(before),
                 median(after), median(before) / median(after));
-    EXPECT_GT(before.size(), 10000u);
+    EXPECT_GT(before.size(), 2000u);
     EXPECT_LE(10.0 * median(after), median(before));
 }
 
