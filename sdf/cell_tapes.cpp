@@ -13,9 +13,11 @@ namespace {
 constexpr std::size_t kShortTape = 16;
 /// Eight tapes cost about as many passes over the one around.
 constexpr std::uint32_t kCostInPasses = 6;
+/// Cells of these levels may hold all of a scene: they are cut although it does not help yet.
+constexpr int kOuterLevels = 7;
 constexpr int kMostLevels = 40, kMostWithoutGain = 10;
-/// Of all instructions kept: 96 MiB.
-constexpr std::uint64_t kMostKept = std::uint64_t(4) << 20;
+/// Of all picks: 128 MiB.
+constexpr std::uint64_t kMostKept = std::uint64_t(32) << 20;
 constexpr double kGain = 0.75;
 
 bool within(const glm::dvec3& p, const glm::dvec3& centre, double half) {
@@ -34,7 +36,7 @@ glm::dvec3 centreOf(const TapeCell& cell, int part) {
 
 struct TapeCell::Parts {
     std::array<TapeCell, kPointLanes> cell;
-    std::unique_ptr<Instruction[]> instructions;
+    std::unique_ptr<Pick[]> picks;
     ~Parts() {
         for (const TapeCell& c : cell) delete c.parts.load(std::memory_order_relaxed);
     }
@@ -88,23 +90,25 @@ void CellTapes::cut(const TapeCell& cell, PruneCounts& counts) const {
         return;
     if (kept_.load(std::memory_order_relaxed) > kMostKept) return;
     const auto start = std::chrono::steady_clock::now();
-    thread_local std::array<std::vector<Instruction>, kPointLanes> shorter;
+    thread_local PickLists shorter;
     LanePoints centres;
     for (int part = 0; part < kPointLanes; ++part) {
-        shorter[part].clear();
         const glm::dvec3 centre = centreOf(cell, part);
         for (int axis = 0; axis < 3; ++axis) centres.axis[axis][part] = centre[axis];
     }
     const double size = std::abs(cell.centre_world.x) + std::abs(cell.centre_world.y) +
                         std::abs(cell.centre_world.z) + cell.half;
     const double radius = 0.5 * cell.half * std::sqrt(3.0) + 1e-12 * size;
-    pruneInto(cell.tape, whole_.positions, whole_.values, centres, radius, shorter);
+    pruneEight(cell.tape, whole_.positions, whole_.values, centres, radius, shorter);
 
     auto parts = std::make_unique<TapeCell::Parts>();
     std::size_t kept = 0;
-    for (const auto& part : shorter) kept += part.size() < cell.tape.size() ? part.size() : 0;
-    parts->instructions = std::make_unique_for_overwrite<Instruction[]>(kept);
-    Instruction* next = parts->instructions.get();
+    for (int part = 0; part < kPointLanes; ++part) {
+        const std::size_t length = shorter.of(part).size();
+        kept += length < cell.tape.size() ? length : 0;
+    }
+    parts->picks = std::make_unique_for_overwrite<Pick[]>(kept);
+    Pick* next = parts->picks.get();
     const std::uint32_t first = cells_.fetch_add(kPointLanes, std::memory_order_relaxed);
     for (int part = 0; part < kPointLanes; ++part) {
         TapeCell& inner = parts->cell[part];
@@ -112,13 +116,15 @@ void CellTapes::cut(const TapeCell& cell, PruneCounts& counts) const {
         inner.around = &cell, inner.index = first + static_cast<std::uint32_t>(part);
         inner.level = static_cast<std::uint8_t>(cell.level + 1);
         inner.tape = cell.tape;
-        const std::size_t length = shorter[part].size();
+        const std::span<const Pick> picks = shorter.of(part);
+        const std::size_t length = picks.size();
         if (length < cell.tape.size()) {
-            inner.tape.instructions = {next, length};
-            next = std::copy(shorter[part].begin(), shorter[part].end(), next);
+            inner.tape.picks = next, inner.tape.count = length;
+            next = std::copy(picks.begin(), picks.end(), next);
         }
         const bool gains = static_cast<double>(length) < kGain * static_cast<double>(cell.tape.size());
-        inner.without_gain = gains ? 0 : static_cast<std::uint8_t>(cell.without_gain + 1);
+        const bool far_out = inner.level < kOuterLevels;
+        inner.without_gain = gains || far_out ? 0 : static_cast<std::uint8_t>(cell.without_gain + 1);
         inner.being_cut = length < kShortTape;
     }
     cell.parts.store(parts.release(), std::memory_order_release);

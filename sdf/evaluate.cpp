@@ -57,15 +57,15 @@ const Instruction& winnerAt(const TapeView& tape, const glm::dvec3& p, glm::dvec
     std::array<const Instruction*, kMostSlots> winner{};
     std::array<Vec3<double>, kMostSlots> local;
     slots.position[0] = {p.x, p.y, p.z};
-    for (const Instruction& i : tape.instructions) {
-        const CodeForm form = codeInfo(i.code).form;
+    tape.forEach([&](const Instruction& i, Code code) {
+        const CodeForm form = kCodeForms[static_cast<int>(code)];
         const bool takes_second =
             form == CodeForm::kKeep ||
             (form == CodeForm::kPair && secondWins(i, slots.value[i.to], slots.value[i.b]));
         if (form == CodeForm::kShape) winner[i.to] = &i, local[i.to] = slots.position[i.a];
         if (takes_second) winner[i.to] = winner[i.b], local[i.to] = local[i.b];
-        step(i, tape.numbers + i.numbers, slots);
-    }
+        step(i, code, tape.numbers + i.numbers, slots);
+    });
     assert(winner[0]);
     p_local = {local[0].x, local[0].y, local[0].z};
     return *winner[0];

@@ -7,8 +7,8 @@ namespace edgewise::sdf {
 
 #define EDGEWISE_DECLARE_VALUES(isa)                                                                         \
     namespace isa {                                                                                          \
-    void laneValues(const Instruction*, const Instruction*, const double*, const LanePoints&, double*);      \
-    void laneWinners(const Instruction*, const Instruction*, const double*, const LaneBalls&, PairWinners*); \
+    void laneValues(const TapeView&, const LanePoints&, double*);      \
+    void laneWinners(const TapeView&, const LaneBalls&, PairWinners*); \
     }
 EDGEWISE_DECLARE_VALUES(scalar)
 EDGEWISE_DECLARE_VALUES(sse2)
@@ -31,7 +31,7 @@ LaneValuesFunction laneValuesFor(const char* instruction_set) {
 
 void laneValues(const TapeView& tape, const LanePoints& p, double (&values)[kPointLanes]) {
     static const LaneValuesFunction best = bestForm(laneValuesFor);
-    best(tape.instructions.data(), tape.instructions.data() + tape.size(), tape.numbers, p, values);
+    best(tape, p, values);
 }
 
 LaneWinnersFunction laneWinnersFor(const char* instruction_set) {
@@ -48,7 +48,7 @@ LaneWinnersFunction laneWinnersFor(const char* instruction_set) {
 
 void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
     static const LaneWinnersFunction best = bestForm(laneWinnersFor);
-    best(tape.instructions.data(), tape.instructions.data() + tape.size(), tape.numbers, balls, winners);
+    best(tape, balls, winners);
 }
 
 }  // namespace edgewise::sdf

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <bitset>
 #include <cmath>
 
@@ -10,9 +9,6 @@
 
 namespace edgewise::sdf {
 namespace {
-
-/// No code makes more of them on the way to its result, each of a number no larger than what it was given.
-constexpr double kRoundingsAnInstruction = 32.0;
 
 enum class Winner : unsigned char { kEither, kFirst, kSecond };
 
@@ -152,69 +148,6 @@ class Pruning {
 };
 
 }  // namespace
-
-namespace {
-
-/// Backwards through eight shorter tapes at once: a bit of what is needed is a ball's.
-class Keeping {
-  public:
-    explicit Keeping(std::array<std::vector<Instruction>, kPointLanes>& shorter) : shorter_(shorter) {
-        values_[0] = 0xff;
-    }
-
-    void take(const Instruction& i, const PairWinners*& winners) {
-        const CodeForm form = kCodeForms[static_cast<int>(i.code)];
-        if (form == CodeForm::kPair) --winners;
-        Set& written = form == CodeForm::kMove ? positions_[i.to] : values_[i.to];
-        const Set needed = written;
-        if (needed == 0) return;
-        if (form == CodeForm::kPair) return pair(i, *winners, needed);
-        if (form == CodeForm::kMove || form == CodeForm::kShape) written = 0, positions_[i.a] |= needed;
-        if (form == CodeForm::kValueAt) positions_[i.b] |= needed;
-        if (form == CodeForm::kKeep) written = 0, values_[i.b] |= needed;
-        add(i, needed);
-    }
-
-  private:
-    using Set = std::uint8_t;
-
-    void pair(const Instruction& i, const PairWinners& winners, Set needed) {
-        const Set second = needed & winners.second, both = needed & ~(winners.first | winners.second);
-        values_[i.b] |= second | both;
-        values_[i.to] = needed & ~second;
-        add(i, both);
-        if (second == 0) return;
-        Instruction taken = i;
-        taken.code = Code::complementOf;
-        if (i.code == Code::subtract || i.code == Code::smoothSubtract) add(taken, second);
-        taken.code = Code::keep;
-        add(taken, second);
-    }
-    void add(const Instruction& i, unsigned balls) {
-        for (; balls != 0; balls &= balls - 1) shorter_[std::countr_zero(balls)].push_back(i);
-    }
-
-    std::array<std::vector<Instruction>, kPointLanes>& shorter_;
-    std::array<Set, kMostSlots> positions_{}, values_{};
-};
-
-}  // namespace
-
-void pruneInto(const TapeView& tape, int positions, int values, const LanePoints& centres, double radius,
-               std::array<std::vector<Instruction>, kPointLanes>& shorter) {
-    thread_local std::vector<PairWinners> winners;
-    winners.resize(tape.size());
-    const double longest_path = positions + values + 2.0;
-    laneWinners(tape, {centres, radius, kDoubleRounding * kRoundingsAnInstruction * longest_path},
-                winners.data());
-    std::size_t pairs = 0;
-    for (const Instruction& i : tape.instructions)
-        pairs += kCodeForms[static_cast<int>(i.code)] == CodeForm::kPair;
-    const PairWinners* next = winners.data() + pairs;
-    Keeping keeping(shorter);
-    for (std::size_t n = tape.size(); n-- > 0;) keeping.take(tape.instructions[n], next);
-    for (std::vector<Instruction>& part : shorter) std::reverse(part.begin(), part.end());
-}
 
 Tape pruneTape(const Tape& tape, const glm::dvec3& centre_world, double radius, double rounding) {
     return Pruning(tape, centre_world, radius, rounding).run();

@@ -14,8 +14,7 @@ struct LanePoints {
     alignas(64) double axis[3][kPointLanes];
 };
 
-using LaneValuesFunction = void (*)(const Instruction* begin, const Instruction* end, const double* numbers,
-                                    const LanePoints& p_world, double* values);
+using LaneValuesFunction = void (*)(const TapeView& tape, const LanePoints& p_world, double* values);
 
 /// The form for an instruction set's name (cmake/lanes.cmake); nullptr: this machine has none of it.
 LaneValuesFunction laneValuesFor(const char* instruction_set);
@@ -35,8 +34,7 @@ struct PairWinners {
     std::uint8_t first, second;
 };
 
-using LaneWinnersFunction = void (*)(const Instruction* begin, const Instruction* end, const double* numbers,
-                                     const LaneBalls& balls, PairWinners* winners);
+using LaneWinnersFunction = void (*)(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
 LaneWinnersFunction laneWinnersFor(const char* instruction_set);
 
 /// One entry a pair, in the tape's order: what pruneTape() decides of each ball.

@@ -171,34 +171,34 @@ EDGEWISE_FN PairWinners winnersOf(const Instruction& i, const double* numbers, c
 }
 }  // namespace
 
-void laneValues(const Instruction* begin, const Instruction* end, const double* numbers, const LanePoints& p,
-                double* values);
-void laneValues(const Instruction* begin, const Instruction* end, const double* numbers, const LanePoints& p,
-                double* values) {
+void laneValues(const TapeView& tape, const LanePoints& p, double* values);
+void laneValues(const TapeView& tape, const LanePoints& p, double* values) {
     thread_local Slots<Lanes> slots;
     Slots<Lanes>& s = slots;
     s.position[0] = Vec3<Lanes>(load(p.axis[0]), load(p.axis[1]), load(p.axis[2]));
-    for (const Instruction* i = begin; i != end; ++i) step(*i, numbers + i->numbers, s);
+    const double* numbers = tape.numbers;
+    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
+        step(i, code, numbers + i.numbers, s);
+    });
     for (int i = 0; i < kParts; ++i)
         __builtin_memcpy(values + i * EDGEWISE_LANES, &s.value[0].part[i], sizeof(one::real));
 }
 
-void laneWinners(const Instruction* begin, const Instruction* end, const double* numbers,
-                 const LaneBalls& balls, PairWinners* winners);
-void laneWinners(const Instruction* begin, const Instruction* end, const double* numbers,
-                 const LaneBalls& balls, PairWinners* winners) {
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
     thread_local Slots<Lanes> slots;
     Slots<Lanes>& s = slots;
     double slope[kMostSlots];
     const LanePoints& p = balls.centre_world;
     s.position[0] = Vec3<Lanes>(load(p.axis[0]), load(p.axis[1]), load(p.axis[2]));
     const Referee referee(balls, s.position[0]);
-    for (const Instruction* i = begin; i != end; ++i) {
-        const CodeForm form = kCodeForms[static_cast<int>(i->code)];
-        if (form == CodeForm::kPair) *winners++ = winnersOf(*i, numbers + i->numbers, referee, s, slope);
-        step(*i, numbers + i->numbers, s);
-        if (form != CodeForm::kMove) slope[i->to] = form == CodeForm::kKeep ? slope[i->b] : i->lipschitz;
-    }
+    const double* numbers = tape.numbers;
+    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
+        const CodeForm form = kCodeForms[static_cast<int>(code)];
+        if (form == CodeForm::kPair) *winners++ = winnersOf(i, numbers + i.numbers, referee, s, slope);
+        step(i, code, numbers + i.numbers, s);
+        if (form != CodeForm::kMove) slope[i.to] = form == CodeForm::kKeep ? slope[i.b] : i.lipschitz;
+    });
 }
 
 }  // namespace edgewise::sdf::EDGEWISE_ISA
