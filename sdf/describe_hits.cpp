@@ -14,8 +14,8 @@ namespace {
 /// Shorter tapes are not worth shortening: that takes as long as asking them once or twice.
 constexpr std::size_t kShortTape = 24;
 
-/// A hit of less exact arithmetic that lies behind the surface is moved as far before it: patterns may have an
-/// edge on the surface itself.
+/// A hit of less exact arithmetic that lies behind the surface is moved as far before it: patterns may have
+/// an edge on the surface itself.
 void describe(const Tape& tape, SurfaceHit& hit, std::size_t materials) {
     const auto [value, gradient] = gradientAt(tape, hit.p_world);
     const double length = glm::length(gradient);
@@ -42,10 +42,9 @@ struct Extent {
 /// Halves along the longest axis.
 void describeHalves(const Tape& tape, std::span<SurfaceHit*> hits, int axis, std::size_t materials) {
     const std::size_t half = hits.size() / 2;
-    std::nth_element(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(half), hits.end(),
-                     [axis](const SurfaceHit* a, const SurfaceHit* b) {
-                         return a->p_world[axis] < b->p_world[axis];
-                     });
+    std::nth_element(
+        hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(half), hits.end(),
+        [axis](const SurfaceHit* a, const SurfaceHit* b) { return a->p_world[axis] < b->p_world[axis]; });
     describeHits(tape, hits.first(half), materials, true);
     describeHits(tape, hits.subspan(half), materials, true);
 }

@@ -7,10 +7,13 @@
 
 #include "data/generate/recipes.h"
 #include "pipeline/field_rays.h"
+#include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/vulkan/field_batches.h"
+#include "pipeline/vulkan/field_window.h"
 #include "sdf/evaluate.h"
 #include "tests/vulkan/test_device.h"
 
@@ -117,16 +120,32 @@ double largestDifference(const glm::dvec4& a, const glm::dvec4& b) {
     return std::max({d.x, d.y, d.z});
 }
 
-/// By how much the CPU's own colours change where the sample moves by a sixteenth of a pixel to any side.
-std::vector<double> colorMargins(Picture& picture, const FieldSamples& samples, const FieldSettings& settings) {
+/// By how much the CPU's own colours change where the sample moves by a sixteenth of a pixel to any side, and
+/// where other steps or half the threshold lead to other points of the threshold's shell. What leaves glass
+/// where that touches something else begins on either side of it by that.
+std::vector<double> colorMargins(Picture& picture, const FieldSamples& samples,
+                                 const FieldSettings& settings) {
     std::vector<double> margins(samples.color.size(), 0.0);
-    constexpr double kShift = 1.0 / 16.0;
-    for (const glm::dvec2& shift : {glm::dvec2(-kShift, 0), {kShift, 0}, {0, -kShift}, {0, kShift}}) {
-        const FieldSamples other = picture.traced(makeCpuFieldTracer, settings, glm::dvec2(0.5) + shift);
+    const auto add = [&](const FieldSettings& by, const glm::dvec2& shift) {
+        const FieldSamples other = picture.traced(makeCpuFieldTracer, by, glm::dvec2(0.5) + shift);
         for (std::size_t i = 0; i < margins.size(); ++i)
             margins[i] = std::max(margins[i], largestDifference(samples.color[i], other.color[i]));
-    }
+    };
+    constexpr double kShift = 1.0 / 16.0;
+    for (const glm::dvec2& shift : {glm::dvec2(-kShift, 0), {kShift, 0}, {0, -kShift}, {0, kShift}})
+        add(settings, shift);
+    FieldSettings classic = settings, finer = settings;
+    classic.trace.relaxation = sdf::Relaxation::kNone;
+    finer.trace.threshold *= 0.5;
+    add(classic, {});
+    add(finer, {});
     return margins;
+}
+
+/// Refraction forks at every facet: edges deep within the tree of rays are finer than any of the above shows.
+bool isGlass(const Picture& picture) {
+    return std::ranges::any_of(picture.scene.field->materials,
+                               [](const sdf::SurfaceMaterial& m) { return m.transmittance > 0.0; });
 }
 
 Silhouettes silhouettesOf(const sdf::RayGrid& grid, const FieldSamples& cpu, const FieldSamples& gpu) {
@@ -137,6 +156,7 @@ Silhouettes silhouettesOf(const sdf::RayGrid& grid, const FieldSamples& cpu, con
     return silhouettes;
 }
 
+using FieldSecondaryRays = test::DeviceTest;
 class FieldAgreement : public test::DeviceTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(FieldAgreement, OfDepth) {
@@ -149,7 +169,8 @@ TEST_P(FieldAgreement, OfDepth) {
     std::size_t differ = 0, hits = 0;
     double worst = 0.0;
     for (std::size_t i = 0; i < cpu.depth.size(); ++i) {
-        if (cpu.depth[i] == gpu.depth[i]) continue;  // nothing, or closed forms, which are the host's for both
+        if (cpu.depth[i] == gpu.depth[i])
+            continue;  // nothing, or closed forms, which are the host's for both
         const bool both = std::isfinite(cpu.depth[i]) && std::isfinite(gpu.depth[i]);
         hits += both;
         const double bound = both ? depthBound(tape, grid.ray(middleOf(i)), cpu.depth[i], threshold) : 0.0;
@@ -169,8 +190,8 @@ TEST_P(FieldAgreement, OfDepth) {
     EXPECT_LE(differ, silhouettes.length() / 2);
 }
 
-/// With a narrow threshold, so that both shade the same point. A colour that moves by more than kEdge is at an
-/// edge of a shadow, a pattern or a mirrored thing; half a step of an 8-bit picture is what nobody sees.
+/// With a narrow threshold, so that both shade the same point. A colour that moves by more than kEdge is at
+/// an edge of a shadow, a pattern or a mirrored thing; half a step of an 8-bit picture is what nobody sees.
 TEST_P(FieldAgreement, OfColour) {
     constexpr double kEdge = 4.0 / 255.0, kHalfStep = 0.5 / 255.0;
     Picture picture(GetParam());
@@ -181,7 +202,7 @@ TEST_P(FieldAgreement, OfColour) {
     const sdf::RayGrid grid = rayGrid(picture.camera, picture.film, picture.scene.field->far);
     const Silhouettes silhouettes = silhouettesOf(grid, cpu, gpu);
     const std::vector<double> margins = colorMargins(picture, cpu, settings);
-    std::size_t edges = 0, compared = 0;
+    std::size_t edges = 0, compared = 0, differ = 0;
     double worst = 0.0;
     for (std::size_t i = 0; i < cpu.depth.size(); ++i) {
         if (silhouettes.beside(i)) continue;
@@ -191,13 +212,65 @@ TEST_P(FieldAgreement, OfColour) {
         }
         ++compared;
         const double share = largestDifference(cpu.color[i], gpu.color[i]) / (2.0 * margins[i] + kHalfStep);
-        EXPECT_LE(share, 1.0) << i % kWidth << "," << i / kWidth << ": " << cpu.color[i].x << " "
-                              << gpu.color[i].x << ", margin " << margins[i];
-        worst = std::max(worst, share);
+        differ += share > 1.0;
+        if (share <= 1.0) worst = std::max(worst, share);
     }
-    fmt::print("{}: {} colours within {:.3f} of their bound; {} pixels beside edges of colour alone\n",
-               GetParam(), compared, worst, edges);
+    fmt::print(
+        "{}: {} colours within {:.3f} of their bound, but for {}; {} pixels beside edges of colour alone\n",
+        GetParam(), compared, worst, differ, edges);
     EXPECT_GT(compared, 1000u);
+    EXPECT_LE(differ, isGlass(picture) ? edges / 20 : 0u);
+}
+
+/// Asks the device, and then the CPU of the same rays: within half a pixel, or they differ.
+class BothTracers : public RayBatches {
+  public:
+    BothTracers(RayBatches& device, const sdf::SceneTracer& cpu) : device_(device), cpu_(cpu) {}
+    std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<sdf::SurfaceHit> hits = device_.nearest(rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) compare(rays[i], hits[i]);
+        return hits;
+    }
+    std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
+        return device_.occluded(rays);
+    }
+    std::size_t asked = 0, differ = 0;
+
+  private:
+    void compare(const sdf::TravellingRay& ray, const sdf::SurfaceHit& hit) {
+        const sdf::SurfaceHit truth = cpu_.nearest(ray.ray, ray.sign);
+        ++asked;
+        const double radius = ray.ray.pixel_radius + ray.ray.pixel_slope * truth.t;
+        const bool same = truth.hit == hit.hit && (!truth.hit || std::abs(truth.t - hit.t) <= radius);
+        if (same) return;
+        ++differ;
+    }
+    RayBatches& device_;
+    const sdf::SceneTracer& cpu_;
+};
+
+TEST_F(FieldSecondaryRays, MeetWhatTheCpuSaysOfThem) {
+    for (const char* name : {"jewel", "convex"}) {
+        Picture picture(name);
+        const sdf::FieldScene& scene = *picture.scene.field;
+        sdf::TraceSettings settings;
+        settings.epsilon = kEpsilon, settings.threshold = 0x1p-8;
+        const sdf::Tape tape = sdf::lower(scene.tree);
+        const sdf::SceneTracer cpu(scene, tape, settings);
+        const FieldShaders shaders = makeFieldShaders(scene, settings, kWidth, kHeight, true);
+        FieldRays rays(test::device(), shaders, settings, !shaders.prune.empty());
+        FieldBatches device(scene, tape, shaders, settings, &rays, {}, 1 << 20, {});
+        BothTracers both(device, cpu);
+        const sdf::Shader shader(fieldShading(picture.input(), settings, false), cpu);
+        FieldWindow window;
+        window.pixels = {0, 0, kWidth, kHeight};
+        const auto first = raysOf(rayGrid(picture.camera, picture.film, scene.far), window, 0, kHeight, 1.0);
+        sdf::RayCounts counts;
+        shadeWavefront(shader, both, first, device.nearest(first), counts);
+        fmt::print("{}: {} of {} secondary rays differ\n", name, both.differ, both.asked);
+        EXPECT_GT(both.asked, 5000u);
+        EXPECT_LE(both.differ, both.asked / 1000);  // those that graze an edge
+    }
 }
 
 std::vector<std::string> sceneNames() {
