@@ -107,9 +107,8 @@ class Wavefront {
         std::vector<Shader::Branch> unused;
         for (std::size_t i = part.first; i < part.last; ++i) {
             unused.clear();
-            sent[i] = g.hits[i].hit
-                          ? shader_.follow(g.branches[i], g.hits[i], shadows, unused, part.counts)
-                          : g.branches[i].share * shader_.settings().background;
+            sent[i] = g.hits[i].hit ? shader_.follow(g.branches[i], g.hits[i], shadows, unused, part.counts)
+                                    : g.branches[i].share * shader_.settings().background;
         }
     }
 

@@ -14,11 +14,15 @@ namespace {
 /// Shorter tapes are not worth shortening: that takes as long as asking them once or twice.
 constexpr std::size_t kShortTape = 24;
 
+/// A hit of less exact arithmetic that lies behind the surface is moved as far before it: patterns may have
+/// an edge on the surface itself.
 void describe(const Tape& tape, SurfaceHit& hit, std::size_t materials) {
-    const glm::dvec3 gradient = gradientAt(tape, hit.p_world).gradient;
+    const auto [value, gradient] = gradientAt(tape, hit.p_world);
     const double length = glm::length(gradient);
-    hit.normal_world =
-        length > 0.0 && std::isfinite(length) ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
+    const bool sloped = length > 0.0 && std::isfinite(length);
+    hit.normal_world = sloped ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
+    if (sloped && (hit.inside ? value > 0.0 : value < 0.0))
+        hit.p_world -= hit.normal_world * (2.0 * value / length);
     hit.material = winnerAt(tape, hit.p_world, hit.p_local).material;
     hit.material = std::min(hit.material, static_cast<std::uint32_t>(materials - 1));
 }
@@ -38,10 +42,9 @@ struct Extent {
 /// Halves along the longest axis.
 void describeHalves(const Tape& tape, std::span<SurfaceHit*> hits, int axis, std::size_t materials) {
     const std::size_t half = hits.size() / 2;
-    std::nth_element(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(half), hits.end(),
-                     [axis](const SurfaceHit* a, const SurfaceHit* b) {
-                         return a->p_world[axis] < b->p_world[axis];
-                     });
+    std::nth_element(
+        hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(half), hits.end(),
+        [axis](const SurfaceHit* a, const SurfaceHit* b) { return a->p_world[axis] < b->p_world[axis]; });
     describeHits(tape, hits.first(half), materials, true);
     describeHits(tape, hits.subspan(half), materials, true);
 }

@@ -38,7 +38,8 @@ glm::dvec4 Shader::shade(const FieldRay& ray, const SurfaceHit& hit, RayCounts& 
         branches.pop_back();
         const SurfaceHit next = tracer_.nearest(branch.way.ray, branch.way.sign);
         counts.evaluations += next.evaluations;
-        sum += next.hit ? follow(branch, next, tracer_, branches, counts) : branch.share * settings_.background;
+        sum +=
+            next.hit ? follow(branch, next, tracer_, branches, counts) : branch.share * settings_.background;
     }
     return {sum, 1.0};
 }

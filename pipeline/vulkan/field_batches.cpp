@@ -125,8 +125,7 @@ void FieldBatches::occludedPart(std::span<const sdf::TravellingRay> rays, std::s
         }
     });
     const FieldAnswers answers = traceField(asked, false);
-    for (std::size_t i = 0; rays_ && i < rays.size(); ++i)
-        hidden[i] = hidden[i] || answers.states[i].hit();
+    for (std::size_t i = 0; rays_ && i < rays.size(); ++i) hidden[i] = hidden[i] || answers.states[i].hit();
 }
 
 std::vector<sdf::SurfaceHit> FieldBatches::nearest(std::span<const sdf::TravellingRay> rays) {

@@ -194,9 +194,10 @@ void FieldRays::checkFlags() const {
                                        "{} turns",
                                        flags[4], kUserTurns));
     if (flags[0] != 0)
-        throw FailureError(shaders_.file, fmt::format("the distance at ({:.9g}, {:.9g}, {:.9g}) is not a number",
-                                              std::bit_cast<float>(flags[1]), std::bit_cast<float>(flags[2]),
-                                              std::bit_cast<float>(flags[3])));
+        throw FailureError(shaders_.file,
+                           fmt::format("the distance at ({:.9g}, {:.9g}, {:.9g}) is not a number",
+                                       std::bit_cast<float>(flags[1]), std::bit_cast<float>(flags[2]),
+                                       std::bit_cast<float>(flags[3])));
 }
 
 std::uint32_t FieldRays::activeRays() const {
@@ -264,7 +265,8 @@ void FieldRays::countAnswers(std::span<const GpuRayState> states) {
 }
 
 void FieldRays::finish(std::uint32_t count) {
-    const std::uint32_t turns = static_cast<std::uint32_t>(settings_.discontinuity_steps) + shaders_.corners();
+    const std::uint32_t turns =
+        static_cast<std::uint32_t>(settings_.discontinuity_steps) + shaders_.corners();
     const std::uint32_t at_once = shaders_.user_loops ? 1 : evaluationsADispatch();
     std::uint32_t from = 0;
     do {

@@ -34,8 +34,8 @@ std::string numbersText(const sdf::TraceSettings& s, const FieldShaders& made) {
         "const uint ew_most_user_turns = {}u, ew_most_turns = {}u;\n",
         static_cast<int>(s.relaxation), std::max(s.most_steps, 1), std::max(s.discontinuity_steps, 0),
         made.corners(), sdf::glslNumber(s.omega), sdf::glslNumber(s.threshold),
-        sdf::glslNumber(1.0 / made.lipschitz), flag(s.screen_candidate),
-        flag(s.level_set), flag(s.prepass), kUserTurns, made.user_loops ? kMostUserTurns : 0xffffffffu);
+        sdf::glslNumber(1.0 / made.lipschitz), flag(s.screen_candidate), flag(s.level_set), flag(s.prepass),
+        kUserTurns, made.user_loops ? kMostUserTurns : 0xffffffffu);
 }
 
 bool isWord(char c) {
@@ -131,8 +131,7 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
                     : "#define EW_ROWS_AT(tile, t)\n#define EW_ALL_ROWS\n";
     if (scene.glsl)  // undefined again before the user's text, which may have a function of that name
-        head +=
-            "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n";
+        head += "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n";
     else
         head += made.field.text;
     head += made.user_albedo

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kFieldListRows = 128, kFieldCoarseRows = 512;
 struct FieldShaders {
     std::vector<std::uint32_t> trace, finish, cones, prune;  ///< SPIR-V; prune: empty without batches
     sdf::GlslField field;                                    ///< empty text: a raw map
-    std::string file;  ///< for messages
+    std::string file;                                        ///< for messages
     bool user_loops = false, user_albedo = false;
     double lipschitz = 1.0;
     std::uint32_t fine_stride = 0, tile_stride = 0;  ///< words of a fine segment's lists, of all of a tile's

@@ -200,8 +200,9 @@ class VulkanFieldTracer : public FieldTracer {
         const FieldCounts& counts = rays_->counts();
         const double lists = static_cast<double>(std::max<std::uint64_t>(counts.lists, 1));
         return fmt::format("of {} like children {:.1f} count in a segment of a tile's depth, by {} lists",
-                           shaders_.field.rows(), static_cast<double>(counts.list_rows) / lists *
-                                                      static_cast<double>(shaders_.field.batches.size()),
+                           shaders_.field.rows(),
+                           static_cast<double>(counts.list_rows) / lists *
+                               static_cast<double>(shaders_.field.batches.size()),
                            counts.lists);
     }
     std::string tableWords() const {

@@ -79,9 +79,9 @@ void addSpheres(sdf::Tree& tree, int count, double radius) {
 
 glm::dvec3 pointOf(Setting& s, const FieldSamples& samples, std::size_t i) {
     const std::size_t width = s.film.width;
-    const sdf::FieldRay ray = rayGrid(s.camera, s.film, 100.0)
-                                  .ray(glm::dvec2(static_cast<double>(i % width) + 0.5,
-                                                  static_cast<double>(i / width) + 0.5));
+    const sdf::FieldRay ray =
+        rayGrid(s.camera, s.film, 100.0)
+            .ray(glm::dvec2(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5));
     return ray.origin_world + samples.depth[i] * ray.direction_world;
 }
 
