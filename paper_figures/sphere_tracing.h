@@ -12,7 +12,7 @@
 
 namespace edgewise::figures {
 
-/// Rays of one picture under one setting. Times are of tracing and shading, medians over the runs.
+/// Rays of one picture under one setting. Times are of tracing, medians over the runs.
 struct TraceRun {
     std::string setting;
     bool parameter_free = false;
@@ -33,11 +33,16 @@ struct TracedScene {
     }
 };
 
-/// Section 3.2: pixels at `steps` steps whose normal is not that of rays that may take all they need.
+/// Section 3.2: pixels at `steps` steps that do not show what rays show that may take all they need.
+struct CandidateKind {
+    std::uint64_t wrong = 0;  ///< a surface that is not there: its normal is another's
+    std::uint64_t holes = 0;  ///< the background
+};
 struct CandidateCount {
     std::string scene;
     int steps = 0;
-    std::uint64_t pixels = 0, wrong_last = 0, wrong_screen = 0;
+    std::uint64_t pixels = 0;
+    CandidateKind last = {}, screen = {};
 };
 
 /// Section 3.4: jumps of f(p) from pixel to pixel of one surface, where slope times cosine is at least 0.6.

@@ -10,7 +10,6 @@
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/load_scene.h"
-#include "pipeline/methods/stopwatch.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
 #include "sdf/evaluate.h"
@@ -21,6 +20,16 @@ namespace {
 using sdf::Relaxation;
 using sdf::TraceSettings;
 
+/// Primary rays alone, as Keinert et al. time them: no light, no mirrors, no glass.
+std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
+    auto copy = std::make_shared<sdf::FieldScene>(scene);
+    for (sdf::SurfaceMaterial& material : copy->materials) {
+        material.shading = sdf::SurfaceMaterial::Shading::kUnlit;
+        material.reflectance = material.transmittance = 0.0;
+    }
+    return copy;
+}
+
 /// A scene's picture of one size, whatever the setting.
 struct View {
     Scene scene;
@@ -30,6 +39,7 @@ struct View {
     RenderOptions options;
     sdf::RayGrid rays;
     View(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
+        scene.field = unlit(*scene.field);
         CameraOptions wanted;
         wanted.size = glm::ivec2(width, height);
         camera = resolveCamera(scene, wanted, film);
@@ -52,10 +62,10 @@ Traced trace(const View& view, const TraceSettings& settings, Progress& progress
     const MethodInput input{view.scene, view.camera, view.film, view.filter, view.options, quiet};
     const auto tracer = makeCpuFieldTracer(input, field);
     Traced traced;
-    Stopwatch watch;
     traced.samples = tracer->trace({view.film.crop, 1, {}});
-    traced.seconds = watch.lap();
     tracer->report(traced.report);
+    for (const StageTime& stage : traced.report.stages)
+        if (stage.name == "trace") traced.seconds += stage.seconds;
     return traced;
 }
 
@@ -172,14 +182,14 @@ CandidateCount measureCandidates(const std::string& name, const SphereTracingEff
     };
     const FieldSamples all = traced(true, kAllSteps), last = traced(false, kPaperSteps),
                        screen = traced(true, kPaperSteps);
-    CandidateCount count{name, kPaperSteps, all.normal.size(), 0, 0};
+    CandidateCount count{name, kPaperSteps, all.normal.size()};
     for (std::size_t i = 0; i < all.normal.size(); ++i) {
-        const auto wrong = [&](const FieldSamples& seen) {
-            const bool hit = std::isfinite(all.depth[i]);
-            if (hit != std::isfinite(seen.depth[i])) return true;
-            return hit && glm::dot(seen.normal[i], all.normal[i]) < kSameNormal;
+        const auto look = [&](const FieldSamples& seen, CandidateKind& kind) {
+            const bool is = std::isfinite(all.depth[i]), looks = std::isfinite(seen.depth[i]);
+            kind.holes += is && !looks;
+            kind.wrong += looks && (!is || glm::dot(seen.normal[i], all.normal[i]) < kSameNormal);
         };
-        count.wrong_last += wrong(last), count.wrong_screen += wrong(screen);
+        look(last, count.last), look(screen, count.screen);
     }
     progress.advance(1);
     return count;

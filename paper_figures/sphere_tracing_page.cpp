@@ -67,11 +67,12 @@ std::string meansTable(const SphereTracing& found) {
 std::string candidatesTable(const SphereTracing& found) {
     std::string rows;
     for (const CandidateCount& c : found.candidates)
-        rows += fmt::format("<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                            escapedHtml(c.scene), c.steps, c.pixels, c.wrong_last, c.wrong_screen);
+        rows += fmt::format(
+            "<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            escapedHtml(c.scene), c.steps, c.pixels, c.last.wrong, c.last.holes, c.screen.wrong, c.screen.holes);
     return table(
-        "<th>scene</th><th></th><th>pixels</th><th>wrong, last point</th><th>wrong, screen-space "
-        "candidate</th>",
+        "<th>scene</th><th></th><th>pixels</th><th>last point: wrong surface</th><th>holes</th><th>screen-space "
+        "candidate: wrong surface</th><th>holes</th>",
         rows);
 }
 
@@ -124,7 +125,7 @@ std::string notes(const SphereTracing& found) {
 constexpr const char* kWords =
     "<p class='under'>Evaluations of the field a primary ray; those of cones are counted among the tile's "
     "rays. Times are "
-    "of tracing and shading, medians, all settings by turns. Other hits: pixels whose ray ends on nothing "
+    "of tracing alone, unlit, medians, all settings by turns. Other hits: pixels whose ray ends on nothing "
     "where classic "
     "tracing ends on something, or the reverse, or at a depth that differs by more than thresholds allow. "
     "Published: "
@@ -186,8 +187,8 @@ std::string sphereTracingJson(const SphereTracing& found) {
         json["candidates"].push_back({{"scene", c.scene},
                                       {"steps", c.steps},
                                       {"pixels", c.pixels},
-                                      {"wrong_last", c.wrong_last},
-                                      {"wrong_screen", c.wrong_screen}});
+                                      {"last", {{"wrong", c.last.wrong}, {"holes", c.last.holes}}},
+                                      {"screen", {{"wrong", c.screen.wrong}, {"holes", c.screen.holes}}}});
     for (const JumpCount& j : found.jumps)
         json["jumps"].push_back({{"scene", j.scene},
                                  {"pairs", j.pairs},

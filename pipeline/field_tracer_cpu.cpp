@@ -16,6 +16,8 @@
 namespace edgewise {
 namespace {
 
+constexpr const char* kNoBound = "the field changes faster than its bound says";
+
 int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
 }
@@ -24,12 +26,12 @@ class CpuFieldTracer : public FieldTracer {
   public:
     CpuFieldTracer(const MethodInput& in, const FieldSettings& settings)
         : in_(in),
-          settings_(settings),
+          settings_(trustedSettings(*in.scene.field, settings.trace)),
           scene_(*in.scene.field),
           tape_(loweredTree(requireTree("tracing", in.scene))),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
-          tracer_(scene_, tape_, settings.trace),
-          shader_(fieldShading(in, settings.trace, false), tracer_) {
+          tracer_(scene_, tape_, settings_),
+          shader_(fieldShading(in, settings_, false), tracer_) {
         sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
         setup_seconds_ = watch_.lap();
     }
@@ -76,14 +78,14 @@ class CpuFieldTracer : public FieldTracer {
 
     /// What may be asked of tiles: positions elsewhere than in their pixels are in no tile's beam.
     sdf::TraceSettings tileSettings(const FieldWindow& window) const {
-        sdf::TraceSettings settings = settings_.trace;
+        sdf::TraceSettings settings = settings_;
         const int width = window.pixels.width();
         for (std::size_t i = 0; i < window.positions_px.size(); ++i) {
             const glm::dvec2 pixel(window.pixels.x0 + static_cast<int>(i % width),
                                    window.pixels.y0 + static_cast<int>(i / width));
             const glm::dvec2 within = window.positions_px[i] - pixel;
             if (std::min(within.x, within.y) >= 0.0 && std::max(within.x, within.y) < 1.0) continue;
-            settings.prepass = settings.prune = false;
+            settings.prepass = false;
         }
         return settings;
     }
@@ -91,7 +93,7 @@ class CpuFieldTracer : public FieldTracer {
     void traceTiles(const FieldWindow& window, std::vector<sdf::TraceHit>& hits) {
         const sdf::TraceSettings settings = tileSettings(window);
         const sdf::TileSides sides = sdf::TileSides::forSamples(window.per_side);
-        const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides);
+        const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides, &tracer_.cells());
         const PixelBox& box = window.pixels;
         const int side = sides.top_px, x0 = tileOf(box.x0, side), x1 = tileOf(box.x1 - 1, side) + 1;
         const int y0 = tileOf(box.y0, side), y1 = tileOf(box.y1 - 1, side) + 1;
@@ -174,16 +176,16 @@ class CpuFieldTracer : public FieldTracer {
         counts["instructions"] = counts_.instructions, counts["tape_passes"] = counts_.passes;
         counts["tiles"] = counts_.leaf_tiles + counts_.empty_tiles;
         counts["tiles_empty"] = counts_.empty_tiles;
-        counts["pruned_tapes"] = counts_.prune.tapes;
-        counts["prune_instructions"] = counts_.prune.instructions;
-        counts["prune_microseconds"] = static_cast<std::uint64_t>(counts_.prune.seconds * 1e6);
+        counts["pruned_tapes"] = tracer_.cells().counts().tapes;
+        counts["prune_instructions"] = tracer_.cells().counts().instructions;
+        counts["prune_microseconds"] = static_cast<std::uint64_t>(tracer_.cells().counts().seconds * 1e6);
         counts["shadow_rays"] = ray_counts_.shadow, counts["reflection_rays"] = ray_counts_.reflection;
         counts["refraction_rays"] = ray_counts_.refraction;
         counts["secondary_evaluations"] = ray_counts_.evaluations;
     }
 
     void reportPlan(MethodResult& result) const {
-        const sdf::TraceSettings& t = settings_.trace;
+        const sdf::TraceSettings& t = settings_;
         const bool field = tape_.size() > 0;
         result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
         result.plan.push_back({"prune", t.prune && field, pruneWords(field)});
@@ -197,22 +199,24 @@ class CpuFieldTracer : public FieldTracer {
     }
     std::string prepassWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!settings_.trace.prepass) return "switched off";
+        if (!scene_.bound_holds) return kNoBound;
+        if (!settings_.prepass) return "switched off";
         return fmt::format("{} cones with {} evaluations; {} of {} tiles are empty", counts_.cones,
                            counts_.cone_evaluations, counts_.empty_tiles,
                            counts_.leaf_tiles + counts_.empty_tiles);
     }
     std::string pruneWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!settings_.trace.prune) return "switched off";
+        if (!scene_.bound_holds) return kNoBound;
+        if (!settings_.prune) return "switched off";
         const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
         return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
                            asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,
-                           counts_.prune.tapes);
+                           tracer_.cells().counts().tapes);
     }
 
     const MethodInput in_;
-    const FieldSettings settings_;
+    const sdf::TraceSettings settings_;
     const sdf::FieldScene& scene_;
     Stopwatch watch_;
     const sdf::Tape tape_;

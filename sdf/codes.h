@@ -31,4 +31,18 @@ enum class Code : unsigned char {
 
 enum class CodeForm : unsigned char { kShape, kMove, kValue, kValueAt, kPair, kKeep };
 
+inline constexpr CodeForm kCodeForms[]{
+#define EDGEWISE_SHAPE(name) CodeForm::kShape,
+#define EDGEWISE_MOVE(name) CodeForm::kMove,
+#define EDGEWISE_VALUE(name) CodeForm::kValue,
+#define EDGEWISE_VALUE_AT(name) CodeForm::kValueAt,
+#define EDGEWISE_PAIR(name) CodeForm::kPair,
+    EDGEWISE_SDF_CODES(EDGEWISE_SHAPE, EDGEWISE_MOVE, EDGEWISE_VALUE, EDGEWISE_VALUE_AT, EDGEWISE_PAIR)
+#undef EDGEWISE_SHAPE
+#undef EDGEWISE_MOVE
+#undef EDGEWISE_VALUE
+#undef EDGEWISE_VALUE_AT
+#undef EDGEWISE_PAIR
+        CodeForm::kKeep};
+
 }  // namespace edgewise::sdf

@@ -9,23 +9,23 @@
 
 namespace edgewise::sdf {
 
-double valueAt(const Tape& tape, const glm::dvec3& p_world);
-float valueAt(const Tape& tape, const glm::vec3& p_world);
+double valueAt(const TapeView& tape, const glm::dvec3& p_world);
+float valueAt(const TapeView& tape, const glm::vec3& p_world);
 
 struct ValueAndGradient {
     double value;
     glm::dvec3 gradient;  ///< not normalised: its length is the field's slope
 };
-ValueAndGradient gradientAt(const Tape& tape, const glm::dvec3& p_world);
+ValueAndGradient gradientAt(const TapeView& tape, const glm::dvec3& p_world);
 
 /// Holds the value at every point of the box.
-Interval valuesIn(const Tape& tape, const Interval (&box)[3]);
+Interval valuesIn(const TapeView& tape, const Interval (&box)[3]);
 
 /// The value in double, and how far float arithmetic with Vulkan's precisions may be from it.
-RunningError floatErrorAt(const Tape& tape, const glm::vec3& p_world);
+RunningError floatErrorAt(const TapeView& tape, const glm::vec3& p_world);
 
 /// The shape that gives the value at a point: its instruction. Of pairs the side that wins: the nearer of
 /// unions, the farther of intersections, the cutting shape where a difference is its cut.
-const Instruction& winnerAt(const Tape& tape, const glm::dvec3& p_world, glm::dvec3& p_local);
+const Instruction& winnerAt(const TapeView& tape, const glm::dvec3& p_world, glm::dvec3& p_local);
 
 }  // namespace edgewise::sdf

@@ -5,9 +5,10 @@
 
 namespace edgewise::sdf {
 
-#define EDGEWISE_DECLARE_VALUES(isa)                                                                    \
-    namespace isa {                                                                                     \
-    void laneValues(const Instruction*, const Instruction*, const double*, const LanePoints&, double*); \
+#define EDGEWISE_DECLARE_VALUES(isa)                                                                         \
+    namespace isa {                                                                                          \
+    void laneValues(const TapeView&, const LanePoints&, double*);      \
+    void laneWinners(const TapeView&, const LaneBalls&, PairWinners*); \
     }
 EDGEWISE_DECLARE_VALUES(scalar)
 EDGEWISE_DECLARE_VALUES(sse2)
@@ -28,9 +29,26 @@ LaneValuesFunction laneValuesFor(const char* instruction_set) {
     return nullptr;
 }
 
-void laneValues(const Tape& tape, const LanePoints& p, double (&values)[kPointLanes]) {
+void laneValues(const TapeView& tape, const LanePoints& p, double (&values)[kPointLanes]) {
     static const LaneValuesFunction best = bestForm(laneValuesFor);
-    best(tape.instructions.data(), tape.instructions.data() + tape.size(), tape.numbers.data(), p, values);
+    best(tape, p, values);
+}
+
+LaneWinnersFunction laneWinnersFor(const char* instruction_set) {
+    if (!machineRuns(instruction_set)) return nullptr;
+    const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
+    if (is("scalar")) return scalar::laneWinners;
+    if (is("sse2")) return sse2::laneWinners;
+#if defined(EDGEWISE_HAS_AVX)
+    if (is("avx2")) return avx2::laneWinners;
+    if (is("avx512")) return avx512::laneWinners;
+#endif
+    return nullptr;
+}
+
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
+    static const LaneWinnersFunction best = bestForm(laneWinnersFor);
+    best(tape, balls, winners);
 }
 
 }  // namespace edgewise::sdf

@@ -15,11 +15,11 @@ struct Slots {
     std::array<R, kMostSlots> value;
 };
 
-/// One instruction on the slots.
+/// One instruction on the slots; `code`: of a shortened tape it may be another.
 template <class R>
-EDGEWISE_FN void step(const Instruction& i, const double* numbers, Slots<R>& s) {
+EDGEWISE_FN void step(const Instruction& i, Code code, const double* numbers, Slots<R>& s) {
     using F = Formulas<R>;
-    switch (i.code) {
+    switch (code) {
 #define EDGEWISE_SHAPE(name)                                            \
     case Code::name:                                                    \
         s.value[i.to] = applyTo<R>(&F::name, s.position[i.a], numbers); \
@@ -52,11 +52,18 @@ EDGEWISE_FN void step(const Instruction& i, const double* numbers, Slots<R>& s) 
     }
 }
 
+template <class R>
+EDGEWISE_FN void step(const Instruction& i, const double* numbers, Slots<R>& s) {
+    step(i, i.code, numbers, s);
+}
+
 /// The value at p.
 template <class R>
-inline R run(const Tape& tape, const Vec3<R>& p, Slots<R>& slots) {
+inline R run(const TapeView& tape, const Vec3<R>& p, Slots<R>& slots) {
     slots.position[0] = p;
-    for (const Instruction& i : tape.instructions) step(i, tape.numbers.data() + i.numbers, slots);
+    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
+        step(i, code, tape.numbers + i.numbers, slots);
+    });
     return slots.value[0];
 }
 

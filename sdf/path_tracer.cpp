@@ -44,21 +44,23 @@ PathTracer::PathTracer(ShadingSettings settings, const std::vector<AnalyticShape
 
 glm::dvec4 PathTracer::radiance(const FieldRay& ray, PathSampler& sampler, RayCounts& counts,
                                 double sign) const {
+    return radiance(ray, tracer_.nearest(ray, sign), sampler, counts, sign);
+}
+
+glm::dvec4 PathTracer::radiance(const FieldRay& ray, const SurfaceHit& first, PathSampler& sampler,
+                                RayCounts& counts, double sign) const {
     Path path{{ray, sign}};
-    double alpha = 0.0;
     ++counts.primary;
-    while (!path.ended) {
-        const SurfaceHit hit = tracer_.nearest(path.way.ray, path.way.sign);
+    for (SurfaceHit hit = first;; hit = tracer_.nearest(path.way.ray, path.way.sign)) {
         counts.evaluations += hit.evaluations;
-        if (hit.hit) {
-            alpha = 1.0;
-            step(path, hit, sampler, counts);
-        } else {
+        if (!hit.hit) {
             path.sum += path.throughput * settings_.background;
-            path.ended = true;
+            break;
         }
+        step(path, hit, sampler, counts);
+        if (path.ended) break;
     }
-    return {path.sum, alpha};
+    return {path.sum, first.hit ? 1.0 : 0.0};
 }
 
 /// What a surface sends along the path by itself: less where fromLamp() has asked for it too.

@@ -38,6 +38,9 @@ class PathTracer {
     /// Of one path. Colour, and alpha: whether the first ray meets a surface.
     glm::dvec4 radiance(const FieldRay& ray, PathSampler& sampler, RayCounts& counts,
                         double sign = 1.0) const;
+    /// The same where the first ray's hit is known.
+    glm::dvec4 radiance(const FieldRay& ray, const SurfaceHit& first, PathSampler& sampler, RayCounts& counts,
+                        double sign = 1.0) const;
 
     /// Pairs that a path of that many surfaces takes.
     std::uint32_t pairs(int surfaces) const { return surfaces * pairs_; }

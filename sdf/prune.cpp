@@ -10,9 +10,6 @@
 namespace edgewise::sdf {
 namespace {
 
-/// No code makes more of them on the way to its result, each of a number no larger than what it was given.
-constexpr double kRoundingsAnInstruction = 32.0;
-
 enum class Winner : unsigned char { kEither, kFirst, kSecond };
 
 /// Both sides of a pair, the second as the pair takes it, at the centre and as far as they reach in the ball.

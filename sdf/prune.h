@@ -2,9 +2,12 @@
 // out.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
-#include "sdf/tape.h"
+#include "sdf/tape_lanes.h"
 
 namespace edgewise::sdf {
 
@@ -19,5 +22,20 @@ inline constexpr double kDoubleRounding = 0x1p-53, kSingleRounding = 0x1p-24;
 /// this.
 Tape pruneTape(const Tape& tape, const glm::dvec3& centre_world, double radius,
                double rounding = kDoubleRounding);
+
+/// No code makes more of them on the way to its result, each of a number no larger than what it was given.
+inline constexpr double kRoundingsAnInstruction = 32.0;
+
+/// The picks of eight shorter tapes, each from its begin to the end of its buffer; reused from one to the
+/// next.
+struct PickLists {
+    std::array<std::vector<Pick>, kPointLanes> buffer;
+    std::array<std::size_t, kPointLanes> begin{};
+    std::span<const Pick> of(int ball) const { return std::span(buffer[ball]).subspan(begin[ball]); }
+};
+
+/// The same in double, for eight balls of one size at a time, of a tape that may be a shortened one.
+void pruneEight(const TapeView& tape, int positions, int values, const LanePoints& centres_world,
+                double radius, PickLists& shorter);
 
 }  // namespace edgewise::sdf

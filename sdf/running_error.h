@@ -18,8 +18,11 @@ struct RunningError {
     double error = 0.0;  ///< |what float arithmetic makes of it - value| is at most this
     RunningError() = default;
     /// A number of the scene: rounded to float.
-    explicit RunningError(double v) : value(v), error(std::abs(v) * kFloatRounding) {}
+    explicit RunningError(double v)
+        : value(v), error(static_cast<float>(v) == v ? 0.0 : std::abs(v) * kFloatRounding) {}
     RunningError(double v, double e) : value(v), error(e) {}
+    /// Sums with it and products of it are not rounded.
+    bool isZero() const { return value == 0.0 && error == 0.0; }
 };
 
 /// `roundings` of a result, on top of what its arguments bring. 2^-126: what may be flushed to 0.
@@ -27,15 +30,18 @@ inline RunningError rounded(double value, double error, double roundings) {
     return {value, error + roundings * kFloatRounding * (std::abs(value) + error) * 1.0000001 + 0x1p-126};
 }
 inline RunningError operator+(const RunningError& a, const RunningError& b) {
+    if (a.isZero() || b.isZero()) return a.isZero() ? b : a;
     return rounded(a.value + b.value, a.error + b.error, 1.0);
 }
 inline RunningError operator-(const RunningError& a, const RunningError& b) {
+    if (b.isZero()) return a;
     return rounded(a.value - b.value, a.error + b.error, 1.0);
 }
 inline RunningError operator-(const RunningError& a) {
     return {-a.value, a.error};
 }
 inline RunningError operator*(const RunningError& a, const RunningError& b) {
+    if (a.isZero() || b.isZero()) return {};
     return rounded(a.value * b.value,
                    std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error, 1.0);
 }
@@ -78,7 +84,8 @@ struct UnsureTruth {
     bool value, sure;
 };
 inline UnsureTruth less(const RunningError& a, const RunningError& b) {
-    return {a.value<b.value, std::abs(a.value - b.value)> a.error + b.error};
+    const double errors = a.error + b.error;
+    return {a.value < b.value, errors == 0.0 || std::abs(a.value - b.value) > errors};
 }
 inline RunningError choose(UnsureTruth condition, const RunningError& a, const RunningError& b) {
     const RunningError &taken = condition.value ? a : b, &other = condition.value ? b : a;

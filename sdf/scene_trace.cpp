@@ -10,21 +10,29 @@
 namespace edgewise::sdf {
 namespace {
 
-/// The ray from its end to its start.
-FieldRay reversed(const FieldRay& ray, double t_end) {
-    FieldRay back = ray;
-    back.origin_world = ray.origin_world + ray.direction_world * t_end;
-    back.direction_world = -ray.direction_world;
-    back.t_min = 0.0, back.t_max = t_end - ray.t_min;
-    back.pixel_radius = ray.pixel_radius + ray.pixel_slope * t_end;
-    back.pixel_slope = -ray.pixel_slope;
-    return back;
+/// A cube around what the scene holds and where it is seen from, and some of what lies beyond.
+std::shared_ptr<const CellTapes> cellsOf(const FieldScene& scene, const Tape& tape, bool prune) {
+    glm::dvec3 low(scene.bounds.low[0], scene.bounds.low[1], scene.bounds.low[2]);
+    glm::dvec3 high(scene.bounds.high[0], scene.bounds.high[1], scene.bounds.high[2]);
+    for (const SurfaceCamera& camera : scene.cameras)
+        low = glm::min(low, camera.eye_world), high = glm::max(high, camera.eye_world);
+    const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    const double half = std::max(2.0 * size, std::min(scene.far, 32.0 * size));
+    return std::make_shared<const CellTapes>(tape, 0.5 * (low + high), half,
+                                             prune && scene.bound_holds && std::isfinite(half));
 }
 
 }  // namespace
 
+TraceSettings trustedSettings(const FieldScene& scene, TraceSettings settings) {
+    if (scene.bound_holds) return settings;
+    settings.relaxation = Relaxation::kNone;
+    settings.prepass = settings.prune = false;
+    return settings;
+}
+
 SceneTracer::SceneTracer(const FieldScene& scene, const Tape& tape, const TraceSettings& settings)
-    : scene_(scene), tape_(tape), settings_(settings) {}
+    : scene_(scene), tape_(tape), settings_(settings), cells_(cellsOf(scene, tape, settings.prune)) {}
 
 bool SceneTracer::withinBound(FieldRay& ray) const {
     if (!settings_.convex || !scene_.convex) return true;
@@ -34,13 +42,25 @@ bool SceneTracer::withinBound(FieldRay& ray) const {
     return ray.t_min < ray.t_max;
 }
 
-/// From within a convex solid what is met first from outside, backwards, is what would be met last.
+FieldRay SceneTracer::reversed(const FieldRay& ray, double t_end) {
+    FieldRay back = ray;
+    back.origin_world = ray.origin_world + ray.direction_world * t_end;
+    back.direction_world = -ray.direction_world;
+    back.t_min = 0.0, back.t_max = t_end - ray.t_min;
+    back.pixel_radius = ray.pixel_radius + ray.pixel_slope * t_end;
+    back.pixel_slope = -ray.pixel_slope;
+    return back;
+}
+
+bool SceneTracer::backwards(const FieldRay& ray, const FieldRay& part, double sign) const {
+    return sign < 0.0 && settings_.convex && scene_.convex && part.t_max < ray.t_max;
+}
+
 TraceHit SceneTracer::traceField(const FieldRay& ray, double sign) const {
     FieldRay part = ray;
     if (!withinBound(part)) return {TraceEnd::kFar, ray.t_max, 0.0, 0, 0, 0};
-    const bool through = sign < 0.0 && settings_.convex && scene_.convex && part.t_max < ray.t_max;
-    if (!through) return traceRay(tape_, part, settings_, sign);
-    TraceHit hit = traceRay(tape_, reversed(ray, part.t_max), settings_, 1.0);
+    if (!backwards(ray, part, sign)) return traceRay(*cells_, part, settings_, sign);
+    TraceHit hit = traceRay(*cells_, reversed(ray, part.t_max), settings_, 1.0);
     hit.t = part.t_max - hit.t;
     return hit;
 }
@@ -53,7 +73,7 @@ SurfaceHit SceneTracer::fieldHit(const FieldRay& ray, const TraceHit& hit, doubl
     out.t = hit.t, out.value = hit.value;
     out.p_world = ray.origin_world + ray.direction_world * hit.t;
     out.normal_world = normalAt(out.p_world);
-    out.material = winnerAt(tape_, out.p_world, out.p_local).material;
+    out.material = winnerAt(cells_->at(out.p_world).tape, out.p_world, out.p_local).material;
     out.material = std::min(out.material, static_cast<std::uint32_t>(scene_.materials.size() - 1));
     return out;
 }
@@ -98,7 +118,7 @@ double SceneTracer::signAt(const glm::dvec3& p_world) const {
 }
 
 glm::dvec3 SceneTracer::normalAt(const glm::dvec3& p_world) const {
-    const glm::dvec3 gradient = gradientAt(tape_, p_world).gradient;
+    const glm::dvec3 gradient = gradientAt(cells_->at(p_world).tape, p_world).gradient;
     const double length = glm::length(gradient);
     return length > 0.0 && std::isfinite(length) ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
 }

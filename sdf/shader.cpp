@@ -8,31 +8,15 @@
 namespace edgewise::sdf {
 namespace {
 
-double largest(const glm::dvec3& v) {
-    return std::max(v.x, std::max(v.y, v.z));
+/// Whether the ray is worth tracing.
+bool add(const Shader::Branch& branch, std::vector<Shader::Branch>& next) {
+    const glm::dvec3& share = branch.share;
+    if (std::max(share.x, std::max(share.y, share.z)) < Shader::kLeastShare) return false;
+    next.push_back(branch);
+    return true;
 }
 
 }  // namespace
-
-/// Rays that are still to be traced, the last one first: no more than one of every hit waits.
-class Shader::Branches {
-  public:
-    /// Whether it is worth tracing.
-    bool add(const Branch& branch) {
-        if (largest(branch.share) < kLeastShare) return false;
-        waiting_.push_back(branch);
-        return true;
-    }
-    bool empty() const { return waiting_.empty(); }
-    Branch take() {
-        const Branch last = waiting_.back();
-        waiting_.pop_back();
-        return last;
-    }
-
-  private:
-    std::vector<Branch> waiting_;
-};
 
 Shader::Shader(ShadingSettings settings, const SurfaceTracer& tracer)
     : settings_(std::move(settings)), tracer_(tracer) {}
@@ -46,21 +30,22 @@ glm::dvec4 Shader::radiance(const FieldRay& ray, RayCounts& counts, double sign)
 
 glm::dvec4 Shader::shade(const FieldRay& ray, const SurfaceHit& hit, RayCounts& counts, double sign) const {
     if (!hit.hit) return {settings_.background, 0.0};
-    Branches branches;
-    const Branch first{{ray, sign}, glm::dvec3(1.0), settings_.reflections, settings_.refractions};
-    glm::dvec3 sum = follow(first, hit, branches, counts);
+    // The last one first: no more than one of every hit waits.
+    std::vector<Branch> branches;
+    glm::dvec3 sum = follow(first(ray, sign), hit, tracer_, branches, counts);
     while (!branches.empty()) {
-        const Branch branch = branches.take();
+        const Branch branch = branches.back();
+        branches.pop_back();
         const SurfaceHit next = tracer_.nearest(branch.way.ray, branch.way.sign);
         counts.evaluations += next.evaluations;
-        sum += next.hit ? follow(branch, next, branches, counts) : branch.share * settings_.background;
+        sum +=
+            next.hit ? follow(branch, next, tracer_, branches, counts) : branch.share * settings_.background;
     }
     return {sum, 1.0};
 }
 
-/// What the hit itself sends back; the rays that go on are added to `next`.
-glm::dvec3 Shader::follow(const Branch& branch, const SurfaceHit& hit, Branches& next,
-                          RayCounts& counts) const {
+glm::dvec3 Shader::follow(const Branch& branch, const SurfaceHit& hit, const SurfaceTracer& shadows,
+                          std::vector<Branch>& next, RayCounts& counts) const {
     const SurfacePoint point = surfacePoint(settings_, branch.way, hit);
     const glm::dvec3 shares = sharesOf(point);
     Branch on = branch;
@@ -69,13 +54,13 @@ glm::dvec3 Shader::follow(const Branch& branch, const SurfaceHit& hit, Branches&
     if (shares.y > 0.0) reflect(on, hit, point, shares.y, next, counts);
     if (shares.z > 0.0) refract(on, hit, point, shares.z, next, counts);
     glm::dvec3 sent = point.material->emission;
-    if (shares.x > 0.0) sent += shares.x * litBy(settings_, tracer_, branch.way, hit, point, counts);
+    if (shares.x > 0.0) sent += shares.x * litBy(settings_, shadows, branch.way, hit, point, counts);
     return on.share * sent;
 }
 
 /// All of it within glass is the refraction's way on.
 void Shader::reflect(Branch branch, const SurfaceHit& hit, const SurfacePoint& point, double share,
-                     Branches& next, RayCounts& counts) const {
+                     std::vector<Branch>& next, RayCounts& counts) const {
     const glm::dvec3 direction = branch.way.ray.direction_world;
     const bool total = point.material->transmittance > 0.0 &&
                        shading::refracted(direction, point.normal, point.eta) == glm::dvec3(0.0);
@@ -83,16 +68,16 @@ void Shader::reflect(Branch branch, const SurfaceHit& hit, const SurfacePoint& p
     if (left-- == 0) return;
     branch.share *= share;
     branch.way = rayFrom(settings_, branch.way, hit, point, shading::mirrored(direction, point.normal));
-    if (next.add(branch)) ++(total ? counts.refraction : counts.reflection);
+    if (add(branch, next)) ++(total ? counts.refraction : counts.reflection);
 }
 
 void Shader::refract(Branch branch, const SurfaceHit& hit, const SurfacePoint& point, double share,
-                     Branches& next, RayCounts& counts) const {
+                     std::vector<Branch>& next, RayCounts& counts) const {
     if (branch.refractions-- == 0) return;
     const glm::dvec3 direction = shading::refracted(branch.way.ray.direction_world, point.normal, point.eta);
     branch.share *= share;
     branch.way = rayThrough(settings_, branch.way, hit, point, direction);
-    if (next.add(branch)) ++counts.refraction;
+    if (add(branch, next)) ++counts.refraction;
 }
 
 }  // namespace edgewise::sdf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <vector>
 
 #include "sdf/surface_light.h"
 
@@ -25,18 +26,25 @@ class Shader {
 
     const ShadingSettings& settings() const { return settings_; }
 
-  private:
+    /// A ray, and which part of its light reaches the eye.
     struct Branch {
         TravellingRay way;
         glm::dvec3 share;
         int reflections, refractions;  ///< left
     };
-    class Branches;
-    glm::dvec3 follow(const Branch& branch, const SurfaceHit& hit, Branches& next, RayCounts& counts) const;
+    Branch first(const FieldRay& ray, double sign) const {
+        return {{ray, sign}, glm::dvec3(1.0), settings_.reflections, settings_.refractions};
+    }
+    /// What the hit itself sends to the eye, `shadows` being asked whether lights reach it; the rays that go
+    /// on, two at most, are added to `next`.
+    glm::dvec3 follow(const Branch& branch, const SurfaceHit& hit, const SurfaceTracer& shadows,
+                      std::vector<Branch>& next, RayCounts& counts) const;
+
+  private:
     void reflect(Branch branch, const SurfaceHit& hit, const SurfacePoint& point, double share,
-                 Branches& next, RayCounts& counts) const;
+                 std::vector<Branch>& next, RayCounts& counts) const;
     void refract(Branch branch, const SurfaceHit& hit, const SurfacePoint& point, double share,
-                 Branches& next, RayCounts& counts) const;
+                 std::vector<Branch>& next, RayCounts& counts) const;
 
     ShadingSettings settings_;
     const SurfaceTracer& tracer_;

@@ -13,4 +13,17 @@ TraceHit traceRay(const Tape& tape, const FieldRay& ray, const TraceSettings& se
     return trace.hit(sign * tape.lipschitz);
 }
 
+TraceHit traceRay(const CellTapes& cells, const FieldRay& ray, const TraceSettings& settings, double sign) {
+    const double lipschitz = cells.whole().lipschitz;
+    RayTrace trace(ray, settings);
+    const TapeCell* cell = nullptr;
+    while (trace.asks()) {
+        const glm::dvec3 p = ray.origin_world + ray.direction_world * trace.askedAt();
+        cell = &cells.at(p, cell);
+        trace.take(valueAt(cell->tape, p) * (sign / lipschitz));
+        cells.ran(*cell, 1);
+    }
+    return trace.hit(sign * lipschitz);
+}
+
 }  // namespace edgewise::sdf

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sdf/cell_tapes.h"
 #include "sdf/tape.h"
 #include "sdf/trace_settings.h"
 
@@ -37,5 +38,7 @@ struct TraceHit {
 /// Traces the field times `sign` (-1: from within). Of a field that is no valid bound nothing is promised but
 /// an end.
 TraceHit traceRay(const Tape& tape, const FieldRay& ray, const TraceSettings& settings, double sign = 1.0);
+/// The same hit, on the tapes of cells.
+TraceHit traceRay(const CellTapes& cells, const FieldRay& ray, const TraceSettings& settings, double sign);
 
 }  // namespace edgewise::sdf

@@ -62,6 +62,7 @@ SurfacePoint surfacePoint(const ShadingSettings& settings, const TravellingRay& 
     SurfacePoint point;
     point.material = &material;
     point.color = showsSecondColor(material, hit.p_local) ? material.second_color : material.color;
+    if (hit.color) point.color = *hit.color;
     point.normal = hit.inside ? -hit.normal_world : hit.normal_world;
     point.view = -from.ray.direction_world;
     point.eta = hit.inside ? 1.0 / material.ior : material.ior;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "sdf/sphere_trace.h"
 
@@ -19,7 +20,8 @@ struct SurfaceHit {
     glm::dvec3 normal_world{0.0};  ///< unit, out of the solid; planes: on the ray's side
     glm::dvec3 p_local{0.0};  ///< in the winning shape's frame; analytic shapes: from the centre, or p_world
     std::uint32_t material = 0;
-    double value = 0.0;  ///< the field's there; analytic shapes: 0
+    std::optional<glm::dvec3> color;  ///< in place of the material's
+    double value = 0.0;               ///< the field's there; analytic shapes: 0
     std::uint32_t evaluations = 0, iterations = 0;
     bool ofField() const { return shape == kField; }
 };

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+
 #include <string_view>
 #include <vector>
 
@@ -30,6 +30,38 @@ struct Instruction {
     double lipschitz = 1.0;
 };
 
+/// An instruction of a shortened tape: the whole tape's by its index, or what is left of a pair there.
+struct Pick {
+    enum Kind : std::uint32_t { kAsItIs, kKeep, kComplement };
+    std::uint32_t index : 30, kind : 2;
+};
+
+/// What evaluators take: a whole tape, or the instructions of it that were picked.
+struct TapeView {
+    const Instruction* instructions = nullptr;
+    const double* numbers = nullptr;
+    const Pick* picks = nullptr;  ///< none: all
+    std::size_t count = 0;
+
+    std::size_t size() const { return count; }
+    /// For each in order: f(the whole tape's instruction, its code here).
+    template <class F>
+    [[gnu::always_inline]] inline void forEach(const F& f) const {
+        if (!picks)
+            for (std::size_t n = 0; n < count; ++n) f(instructions[n], instructions[n].code);
+        else
+            for (std::size_t n = 0; n < count; ++n) {
+                const Instruction& i = instructions[picks[n].index];
+                f(i, codeOf(i, picks[n]));
+            }
+    }
+    [[gnu::always_inline]] static inline Code codeOf(const Instruction& i, Pick pick) {
+        return pick.kind == Pick::kAsItIs ? i.code
+               : pick.kind == Pick::kKeep ? Code::keep
+                                          : Code::complementOf;
+    }
+};
+
 /// The world's position is position slot 0; the result is value slot 0.
 struct Tape {
     std::vector<Instruction> instructions;
@@ -38,6 +70,7 @@ struct Tape {
     double lipschitz = 1.0;         ///< of the whole
 
     std::size_t size() const { return instructions.size(); }
+    operator TapeView() const { return {instructions.data(), numbers.data(), nullptr, size()}; }
 };
 
 /// What an instruction is, for those that print or analyse it.

@@ -14,13 +14,30 @@ struct LanePoints {
     alignas(64) double axis[3][kPointLanes];
 };
 
-using LaneValuesFunction = void (*)(const Instruction* begin, const Instruction* end, const double* numbers,
-                                    const LanePoints& p_world, double* values);
+using LaneValuesFunction = void (*)(const TapeView& tape, const LanePoints& p_world, double* values);
 
 /// The form for an instruction set's name (cmake/lanes.cmake); nullptr: this machine has none of it.
 LaneValuesFunction laneValuesFor(const char* instruction_set);
 
 /// The values at the points, to the last bit what valueAt() says of each.
-void laneValues(const Tape& tape, const LanePoints& p_world, double (&values)[kPointLanes]);
+void laneValues(const TapeView& tape, const LanePoints& p_world, double (&values)[kPointLanes]);
+
+/// Eight balls of one size.
+struct LaneBalls {
+    LanePoints centre_world;
+    double radius;
+    double rounding;  ///< of all arithmetic on the way to a value, as a part of it
+};
+
+/// In which balls (a bit each) a pair's first side is the result everywhere, and in which its second.
+struct PairWinners {
+    std::uint8_t first, second;
+};
+
+using LaneWinnersFunction = void (*)(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
+LaneWinnersFunction laneWinnersFor(const char* instruction_set);
+
+/// One entry a pair, in the tape's order: what pruneTape() decides of each ball.
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
 
 }  // namespace edgewise::sdf

@@ -121,18 +121,84 @@ EDGEWISE_FN Lanes load(const double* numbers) {
         __builtin_memcpy(&lanes.part[i], numbers + i * EDGEWISE_LANES, sizeof lanes.part[i]);
     return lanes;
 }
+
+EDGEWISE_FN unsigned setOf(const LaneMask& m) {
+    unsigned set = 0;
+    for (int i = 0; i < kParts; ++i) set |= one::laneSet(m.part[i]) << (i * EDGEWISE_LANES);
+    return set;
+}
+
+/// Between which values a side of a pair is in the balls.
+struct Side {
+    Lanes low, high;
+};
+
+class Referee {
+  public:
+    EDGEWISE_FN Referee(const LaneBalls& balls, const Vec3<Lanes>& centre)
+        : radius_(balls.radius),
+          rounding_(balls.rounding),
+          size_(abs(centre.x) + abs(centre.y) + abs(centre.z) + Lanes(balls.radius)) {}
+
+    /// As the second of a difference: -value.
+    EDGEWISE_FN Side side(const Lanes& value, double slope) const {
+        const Lanes reach = Lanes(slope * radius_) +
+                            (size_ * Lanes(slope < 1.0 ? 1.0 : slope) + abs(value)) * Lanes(rounding_);
+        return {value - reach, value + reach};
+    }
+    /// Apart by more than `band`.
+    static PairWinners lower(const Side& a, const Side& b, double band) {
+        return {static_cast<std::uint8_t>(setOf(less(Lanes(band), b.low - a.high))),
+                static_cast<std::uint8_t>(setOf(less(Lanes(band), a.low - b.high)))};
+    }
+
+  private:
+    double radius_, rounding_;
+    Lanes size_;
+};
+
+EDGEWISE_FN PairWinners winnersOf(const Instruction& i, const double* numbers, const Referee& referee,
+                                  const Slots<Lanes>& s, const double* slope) {
+    const bool unites = i.code == Code::unite || i.code == Code::smoothUnite;
+    const bool cuts = i.code == Code::subtract || i.code == Code::smoothSubtract;
+    const bool smooth = i.code == Code::smoothUnite || i.code == Code::smoothIntersect ||
+                        i.code == Code::smoothSubtract;
+    const double band = smooth ? numbers[0] : 0.0;
+    const Side a = referee.side(s.value[i.to], slope[i.to]);
+    const Side b = referee.side(cuts ? -s.value[i.b] : s.value[i.b], slope[i.b]);
+    const PairWinners below = Referee::lower(a, b, band);
+    return unites ? below : PairWinners{below.second, below.first};
+}
 }  // namespace
 
-void laneValues(const Instruction* begin, const Instruction* end, const double* numbers, const LanePoints& p,
-                double* values);
-void laneValues(const Instruction* begin, const Instruction* end, const double* numbers, const LanePoints& p,
-                double* values) {
+void laneValues(const TapeView& tape, const LanePoints& p, double* values);
+void laneValues(const TapeView& tape, const LanePoints& p, double* values) {
     thread_local Slots<Lanes> slots;
     Slots<Lanes>& s = slots;
     s.position[0] = Vec3<Lanes>(load(p.axis[0]), load(p.axis[1]), load(p.axis[2]));
-    for (const Instruction* i = begin; i != end; ++i) step(*i, numbers + i->numbers, s);
+    const double* numbers = tape.numbers;
+    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
+        step(i, code, numbers + i.numbers, s);
+    });
     for (int i = 0; i < kParts; ++i)
         __builtin_memcpy(values + i * EDGEWISE_LANES, &s.value[0].part[i], sizeof(one::real));
+}
+
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
+void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
+    thread_local Slots<Lanes> slots;
+    Slots<Lanes>& s = slots;
+    double slope[kMostSlots];
+    const LanePoints& p = balls.centre_world;
+    s.position[0] = Vec3<Lanes>(load(p.axis[0]), load(p.axis[1]), load(p.axis[2]));
+    const Referee referee(balls, s.position[0]);
+    const double* numbers = tape.numbers;
+    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
+        const CodeForm form = kCodeForms[static_cast<int>(code)];
+        if (form == CodeForm::kPair) *winners++ = winnersOf(i, numbers + i.numbers, referee, s, slope);
+        step(i, code, numbers + i.numbers, s);
+        if (form != CodeForm::kMove) slope[i.to] = form == CodeForm::kKeep ? slope[i.b] : i.lipschitz;
+    });
 }
 
 }  // namespace edgewise::sdf::EDGEWISE_ISA

@@ -11,6 +11,9 @@
 namespace edgewise::sdf {
 namespace {
 
+/// As many as stay in a core's caches.
+constexpr std::size_t kRaysAtOnce = 1024;
+
 /// A ray on its way.
 class RayAsker {
   public:
@@ -29,69 +32,81 @@ class RayAsker {
     std::uint32_t index_;
 };
 
-/// Those that ask in one slab, eight at a time, until they ask elsewhere or no more.
+/// Those that ask in one cell, eight at a time; round by round, until none asks.
 template <class Asker>
 class LaneQueue {
   public:
-    LaneQueue(SlabTapes& tapes, double scale, TileCounts& counts)
-        : tapes_(tapes), scale_(scale), counts_(counts) {}
+    LaneQueue(const CellTapes& cells, double scale, TileCounts& counts)
+        : cells_(cells), scale_(scale), counts_(counts) {}
 
     void serve(std::span<Asker> askers) {
-        for (Asker& asker : askers) await(asker);
-        while (!waiting_.empty()) serveNearest();
+        for (Asker& asker : askers) await(asker, nullptr);
+        while (!waiting_.empty()) serveAll();
     }
 
   private:
     struct Waiting {
-        int slab;
+        std::uint32_t cell_index;
+        const TapeCell* cell;
         Asker* asker;
     };
-    void await(Asker& asker) {
-        if (asker.asks()) waiting_.push_back({tapes_.indexOf(asker.askedAt()), &asker});
+    void await(Asker& asker, const TapeCell* near) {
+        if (!asker.asks()) return;
+        const TapeCell& cell = cells_.at(asker.askedPoint(), near);
+        waiting_.push_back({cell.index, &cell, &asker});
     }
 
-    void serveNearest() {
-        int nearest = waiting_.front().slab;
-        for (const Waiting& w : waiting_) nearest = std::min(nearest, w.slab);
-        const auto others = std::stable_partition(waiting_.begin(), waiting_.end(),
-                                                  [=](const Waiting& w) { return w.slab == nearest; });
-        std::vector<Asker*>& here = here_;
-        here.clear();
-        for (auto w = waiting_.begin(); w != others; ++w) here.push_back(w->asker);
-        waiting_.erase(waiting_.begin(), others);
-        const Tape& tape = tapes_.of(nearest, here.size(), counts_.prune);
-        while (!here.empty()) pass(tape, nearest, here);
+    void serveAll() {
+        std::swap(now_, waiting_);
+        waiting_.clear();
+        std::sort(now_.begin(), now_.end(),
+                  [](const Waiting& a, const Waiting& b) { return a.cell_index < b.cell_index; });
+        for (auto begin = now_.begin(); begin != now_.end();) {
+            const auto end = std::find_if(
+                begin, now_.end(), [=](const Waiting& w) { return w.cell_index != begin->cell_index; });
+            here_.clear();
+            for (auto w = begin; w != end; ++w) here_.push_back(w->asker);
+            serveCell(*begin->cell);
+            begin = end;
+        }
+    }
+
+    /// As long as there are eight; then one pass for the rest, who go on with those that come.
+    void serveCell(const TapeCell& cell) {
+        std::uint32_t passes = 0;
+        while (!here_.empty()) ++passes, pass(cell);
+        cells_.ran(cell, passes, counts_.prune);
     }
 
     /// Up to eight from the end.
-    void pass(const Tape& tape, int slab, std::vector<Asker*>& here) {
-        const std::size_t count = std::min<std::size_t>(kPointLanes, here.size());
+    void pass(const TapeCell& cell) {
+        const std::size_t count = std::min<std::size_t>(kPointLanes, here_.size());
         std::array<Asker*, kPointLanes> lane{};
-        std::copy_n(here.end() - static_cast<std::ptrdiff_t>(count), count, lane.begin());
-        here.resize(here.size() - count);
+        std::copy_n(here_.end() - static_cast<std::ptrdiff_t>(count), count, lane.begin());
+        here_.resize(here_.size() - count);
         LanePoints points;
         for (std::size_t i = 0; i < kPointLanes; ++i) {
             const glm::dvec3 p = lane[std::min(i, count - 1)]->askedPoint();
             for (int axis = 0; axis < 3; ++axis) points.axis[axis][i] = p[axis];
         }
         double values[kPointLanes];
-        laneValues(tape, points, values);
+        laneValues(cell.tape, points, values);
         ++counts_.passes;
-        counts_.instructions += count * tape.size();
+        counts_.instructions += count * cell.tape.size();
+        const bool stay = here_.size() >= kPointLanes;
         for (std::size_t i = 0; i < count; ++i) {
             lane[i]->take(values[i] * scale_);
-            if (!lane[i]->asks()) continue;
-            if (tapes_.indexOf(lane[i]->askedAt()) == slab)
-                here.push_back(lane[i]);
+            if (stay && lane[i]->asks() && &cells_.at(lane[i]->askedPoint(), &cell) == &cell)
+                here_.push_back(lane[i]);
             else
-                await(*lane[i]);
+                await(*lane[i], &cell);
         }
     }
 
-    SlabTapes& tapes_;
+    const CellTapes& cells_;
     double scale_;
     TileCounts& counts_;
-    std::vector<Waiting> waiting_;
+    std::vector<Waiting> waiting_, now_;
     std::vector<Asker*> here_;
 };
 
@@ -118,12 +133,17 @@ class TileWork {
         : t_(tracer), scale_(tracer.sign_ / tracer.tape_.lipschitz), hits_(hits), counts_(counts) {}
 
     void run(int x, int y, std::span<TileRay> rays) {
-        const Beam beam = beamOf(x, y, t_.sides_.top_px);
-        const Slabs slabs(beam, t_.grid_.t_min, t_.grid_.t_max);
-        SlabTapes tapes(t_.tape_, slabs, beam, t_.settings_.prune);
-        std::vector<Tile> top{{x, y, t_.sides_.top_px, rays, t_.grid_.t_min}};
-        march(top, tapes);
-        if (!top.empty()) descend(top.front(), tapes);
+        std::vector<Tile> tiles{{x, y, t_.sides_.top_px, rays, t_.grid_.t_min}};
+        march(tiles);
+        while (!tiles.empty() && tiles.front().side > leastSide()) {
+            if (tiles.front().side == t_.sides_.leaf_px) counts_.leaf_tiles += tiles.size();
+            std::vector<Tile> parts;
+            for (const Tile& tile : tiles) addQuarters(tile, parts);
+            tiles = std::move(parts);
+            march(tiles);
+        }
+        if (leastSide() == t_.sides_.leaf_px) counts_.leaf_tiles += tiles.size();
+        traceRays(tiles);
     }
 
   private:
@@ -134,16 +154,20 @@ class TileWork {
     };
 
     Beam beamOf(int x, int y, int side) const { return t_.grid_.beam({x, y}, {x + side, y + side}); }
+    /// How narrow cones get does not depend on which rays are asked for: a crop has the whole's bits.
+    int leastSide() const {
+        return t_.settings_.prepass ? std::min(t_.sides_.cone_px, t_.sides_.leaf_px) : t_.sides_.leaf_px;
+    }
 
     /// Moves the tiles' starts as far as their cones are free; takes out the empty ones.
-    void march(std::vector<Tile>& tiles, SlabTapes& tapes) {
+    void march(std::vector<Tile>& tiles) {
         std::erase_if(tiles, [](const Tile& tile) { return tile.rays.empty(); });
         if (!t_.settings_.prepass || tiles.empty()) return;
         std::vector<ConeMarch> cones;
         const Relaxation relaxation = t_.settings_.relaxation;
         for (const Tile& tile : tiles)
             cones.emplace_back(beamOf(tile.x, tile.y, tile.side), tile.t_start, t_.grid_.t_max, relaxation);
-        LaneQueue<ConeMarch>(tapes, scale_, counts_).serve(cones);
+        LaneQueue<ConeMarch>(t_.cells_, scale_, counts_).serve(cones);
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             counts_.cones += 1, counts_.cone_evaluations += cones[i].evaluations();
             tiles[i].t_start = cones[i].freeUpTo();
@@ -163,9 +187,8 @@ class TileWork {
     }
 
     /// The four tiles of half the side.
-    std::vector<Tile> quarters(const Tile& tile) {
+    static void addQuarters(const Tile& tile, std::vector<Tile>& parts) {
         const int half = tile.side / 2;
-        std::vector<Tile> parts;
         auto begin = tile.rays.begin();
         for (int part = 0; part < 4; ++part) {
             const int x = tile.x + (part & 1) * half, y = tile.y + (part >> 1) * half;
@@ -176,48 +199,31 @@ class TileWork {
             parts.push_back({x, y, half, {begin, end}, tile.t_start});
             begin = end;
         }
-        return parts;
     }
 
-    void descend(const Tile& tile, SlabTapes& tapes) {
-        if (tile.side <= t_.sides_.leaf_px) return traceLeaf(tile, tapes);
-        std::vector<Tile> parts = quarters(tile);
-        march(parts, tapes);
-        for (const Tile& part : parts) {
-            SlabTapes own(tapes, beamOf(part.x, part.y, part.side));
-            descend(part, own);
-        }
-    }
-
-    /// How narrow cones get does not depend on which rays are asked for: a crop has the whole's bits.
-    void traceLeaf(const Tile& leaf, SlabTapes& tapes) {
-        ++counts_.leaf_tiles;
-        std::vector<Tile> tiles{leaf};
-        while (t_.settings_.prepass && !tiles.empty() && tiles.front().side > t_.sides_.cone_px) {
-            std::vector<Tile> parts;
-            for (const Tile& tile : tiles)
-                for (const Tile& part : quarters(tile)) parts.push_back(part);
-            march(parts, tapes);
-            tiles = std::move(parts);
-        }
-        traceRays(tiles, tapes);
-    }
-
-    void traceRays(const std::vector<Tile>& tiles, SlabTapes& tapes) {
+    void traceRays(const std::vector<Tile>& tiles) {
         std::vector<RayAsker> askers;
-        for (const Tile& tile : tiles)
+        LaneQueue<RayAsker> queue(t_.cells_, scale_, counts_);
+        for (const Tile& tile : tiles) {
             for (const TileRay& ray : tile.rays) {
                 FieldRay shorter = ray.ray;
                 shorter.t_min = std::max(shorter.t_min, tile.t_start);
                 askers.emplace_back(shorter, ray.index, t_.settings_);
             }
-        LaneQueue<RayAsker>(tapes, scale_, counts_).serve(askers);
+            if (askers.size() >= kRaysAtOnce) finish(queue, askers);
+        }
+        finish(queue, askers);
+    }
+
+    void finish(LaneQueue<RayAsker>& queue, std::vector<RayAsker>& askers) {
+        queue.serve(askers);
         for (const RayAsker& asker : askers) {
             const TraceHit hit = asker.hit(1.0 / scale_);
             counts_.rays += 1, counts_.evaluations += hit.evaluations;
             counts_.iterations += hit.iterations, counts_.failed += hit.failed;
             hits_[asker.index()] = hit;
         }
+        askers.clear();
     }
 
     const TileTracer& t_;
@@ -227,8 +233,14 @@ class TileWork {
 };
 
 TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign,
-                       TileSides sides)
-    : tape_(tape), grid_(grid), settings_(settings), sign_(sign), sides_(sides) {}
+                       TileSides sides, const CellTapes* cells)
+    : tape_(tape),
+      grid_(grid),
+      settings_(settings),
+      sign_(sign),
+      sides_(sides),
+      own_cells_(tape, grid.eye_world, grid.t_max, settings.prune),
+      cells_(cells && settings.prune ? *cells : own_cells_) {}
 
 void TileTracer::trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                        TileCounts& counts) const {

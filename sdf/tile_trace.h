@@ -1,12 +1,12 @@
-// The rays of a tile of pixels through the field: cones first, then the rays eight at a time, on tapes that
-// are shortened for where they are.
+// The rays of a tile of pixels through the field: cones first, ever narrower ones, then the rays; eight at a
+// time of those that are in one cell, on its tape.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "sdf/cell_tapes.h"
 #include "sdf/ray_grid.h"
-#include "sdf/slab_tapes.h"
 #include "sdf/sphere_trace.h"
 
 namespace edgewise::sdf {
@@ -38,9 +38,10 @@ struct TileCounts {
 
 class TileTracer {
   public:
-    /// Refers to its arguments. `sign`: -1 where rays start within the solid.
+    /// Refers to its arguments. `sign`: -1 where rays start within the solid. `cells`: of the tape; else it
+    /// has its own around the eye.
     TileTracer(const Tape& tape, const RayGrid& grid, const TraceSettings& settings, double sign,
-               TileSides sides = {});
+               TileSides sides = {}, const CellTapes* cells = nullptr);
 
     /// Traces rays through the top tile whose corner is at (x, y): multiples of its side. Sorts
     /// the rays.
@@ -54,6 +55,8 @@ class TileTracer {
     const TraceSettings& settings_;
     double sign_;
     TileSides sides_;
+    const CellTapes own_cells_;
+    const CellTapes& cells_;
 };
 
 }  // namespace edgewise::sdf

@@ -14,6 +14,11 @@ bool countsTheScene(std::string_view count) {
     return count == "triangles" || count == "screen_triangles" || count == "pieces";
 }
 
+/// Frames, and how far they are apart: of the strip where they are farthest.
+bool tellsTheWorst(std::string_view count) {
+    return count == "frames" || count.starts_with("temporal_deviation");
+}
+
 void addSeconds(const StageTime& stage, std::vector<StageTime>& all) {
     const auto known = std::ranges::find(all, stage.name, &StageTime::name);
     if (known == all.end())
@@ -42,7 +47,9 @@ std::vector<PixelBox> stripsOf(const PixelBox& crop, const RenderOptions& option
 void addStrip(const MethodResult& strip, MethodResult& all) {
     for (const StageTime& stage : strip.stages) addSeconds(stage, all.stages);
     for (const auto& [name, count] : strip.counts)
-        all.counts[name] = countsTheScene(name) ? count : all.counts[name] + count;
+        all.counts[name] = countsTheScene(name)  ? count
+                           : tellsTheWorst(name) ? std::max(all.counts[name], count)
+                                                 : all.counts[name] + count;
     all.setup_seconds += strip.setup_seconds;
     for (const std::string& note : strip.notes)
         if (std::ranges::find(all.notes, note) == all.notes.end()) all.notes.push_back(note);

@@ -131,9 +131,9 @@ class StudyReader {
         checkOption("budget", [&](const std::string& text) {
             study_.schedule.budget_seconds = readBudget("--budget", text);
         });
-        study_.reference = file_.option("reference").value_or(kUsualReference);
-        check(file_.lineOf("reference"), "reference",
-              [&] { checkAbilities(study_.making, parseMethod(study_.reference)); });
+        check(file_.lineOf("reference"), "reference", [&] {
+            checkAbilities(study_.making, parseMethod(file_.option("reference").value_or(kUsualReference)));
+        });
     }
 
     void readMethods() {
@@ -289,6 +289,11 @@ class StudyReader {
                 }
     }
 
+    std::string referenceFor(const StudyScene& scene) const {
+        return file_.option("reference")
+            .value_or(isFieldFile(scene.file) ? kUsualFieldReference : kUsualReference);
+    }
+
     void addJob(const StudyScene& scene, const CameraEntry& camera, const std::optional<std::string>& size,
                 const FilterArguments& filter, const std::vector<std::string>& methods) {
         StudyJob job;
@@ -298,6 +303,7 @@ class StudyReader {
         job.picture.size = size;
         job.filter = filter;
         job.methods = methods;
+        job.reference = referenceFor(scene);
         // All flags but the first words, which say where the scene's file lies.
         const std::vector<std::string> flags = workerFlags(job.picture, filter, study_.making, "");
         job.key = {{"version", version()},
@@ -306,7 +312,7 @@ class StudyReader {
                    {"camera", camera.label},
                    {"flags", std::vector(flags.begin() + 2, flags.end() - 1)},
                    {"methods", methods},
-                   {"reference", study_.reference},
+                   {"reference", job.reference},
                    {"runs", study_.schedule.runs},
                    {"budget", file_.option("budget").value_or("")}};
         job.hash = sweep::contentHash(job.key.dump());

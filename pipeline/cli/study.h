@@ -19,13 +19,13 @@ struct StudyJob {
     PictureArguments picture;
     FilterArguments filter;
     std::vector<std::string> methods;
+    std::string reference;
     nlohmann::ordered_json key;  ///< all that its rows depend on but the machine
     std::string hash;            ///< of the key
 };
 
 struct Study {
     MethodArguments making;
-    std::string reference;
     compare::ScheduleOptions schedule;
     std::vector<StudyJob> jobs;  ///< by scene, camera, size, filter, as the study lists them
 };

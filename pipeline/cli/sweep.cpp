@@ -116,7 +116,7 @@ class Sweep {
         try {
             compare::Row reference;
             const compare::ReferencePicture truth = compare::referenceOf(
-                {study_.reference, flagsOf(job, study_.reference)}, options.scratch, reference, progress);
+                {job.reference, flagsOf(job, job.reference)}, options.scratch, reference, progress);
             for (compare::Row& row : measurement.rows) row.size = reference.size;
             compare::runByTurns(
                 contenders, options, measurement.rows,

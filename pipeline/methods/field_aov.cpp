@@ -1,9 +1,11 @@
 #include "pipeline/methods/field_aov.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/error.h"
 #include "pipeline/field_rays.h"
+#include "pipeline/methods/stopwatch.h"
 
 namespace edgewise {
 
@@ -32,6 +34,27 @@ void FieldAov::pixel(int x, int y, const FieldSamples& samples, std::size_t i, I
     if (in_.options.aovs.contains(Aov::kNormal))
         for (int axis = 0; axis < 3; ++axis) *out++ = floatBits(samples.normal[i][axis]);
     if (in_.options.aovs.contains(Aov::kIndex)) *out = samples.surface[i];
+}
+
+void traceFieldAovs(const MethodInput& in, FieldTracerMaker make, ImageBuffer& image) {
+    const FieldAov aov(in);
+    if (!aov.active()) return;
+    aov.begin(image);
+    constexpr double kBytesPerSample = 256.0;  // a sample's results and what its tracing takes, generously
+    const PixelBox& crop = in.film.crop;
+    const double fit =
+        0.5 * 0x1p20 * static_cast<double>(in.options.memory_mib) / (kBytesPerSample * crop.width());
+    const int rows = static_cast<int>(std::clamp(fit, 1.0, static_cast<double>(crop.height())));
+    const std::unique_ptr<FieldTracer> tracer = make(in, {});
+    for (int top = crop.y0; top < crop.y1; top += rows) {
+        FieldWindow window;
+        window.pixels = {crop.x0, top, crop.x1, std::min(top + rows, crop.y1)};
+        const FieldSamples samples = tracer->trace(window);
+        std::size_t i = 0;
+        for (int y = window.pixels.y0; y < window.pixels.y1; ++y)
+            for (int x = crop.x0; x < crop.x1; ++x) aov.pixel(x, y, samples, i++, image);
+        checkCancelled(in.progress);
+    }
 }
 
 }  // namespace edgewise

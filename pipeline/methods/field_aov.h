@@ -9,7 +9,7 @@ namespace edgewise {
 /// depth and normal as aov_names.h says; index: the material. Throws InputError for what counts triangles.
 class FieldAov {
   public:
-    FieldAov(const MethodInput& in);
+    explicit FieldAov(const MethodInput& in);
     bool active() const { return !in_.options.aovs.empty(); }
     void begin(ImageBuffer& image) const;
     /// From sample `i`, at the pixel's centre.
@@ -19,5 +19,8 @@ class FieldAov {
     const MethodInput in_;
     sdf::RayGrid grid_;
 };
+
+/// Those of the whole crop, for methods whose own rays lie elsewhere. Nothing without --aov.
+void traceFieldAovs(const MethodInput& in, FieldTracerMaker make, ImageBuffer& image);
 
 }  // namespace edgewise

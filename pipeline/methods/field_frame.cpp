@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/methods/color_spread.h"
 #include "pipeline/methods/field_aov.h"
 #include "pipeline/methods/field_pictures.h"
 #include "pipeline/methods/sample_weights.h"
@@ -24,18 +25,6 @@ PixelBox within(const PixelBox& box, const Film& film) {
     return {std::max(box.x0, 0), std::max(box.y0, 0), std::min(box.x1, film.width),
             std::min(box.y1, film.height)};
 }
-
-/// The extremes of colours: whether some channel differs by more than an edge does.
-struct Spread {
-    glm::dvec3 least{HUGE_VAL}, most{-HUGE_VAL};
-    void add(const glm::dvec4& color) {
-        least = glm::min(least, glm::dvec3(color)), most = glm::max(most, glm::dvec3(color));
-    }
-    float edge() const {
-        const glm::dvec3 d = most - least;
-        return std::max({d.x, d.y, d.z}) > kEdgeContrast ? 1.0f : 0.0f;
-    }
-};
 
 /// A picture in bands of rows.
 class FieldFrame {
@@ -99,7 +88,7 @@ class FieldFrame {
         const auto at = [&](int i, int j) {
             return static_cast<std::size_t>(j - window.pixels.y0) * window.stride() + (i - window.pixels.x0);
         };
-        Spread spread;
+        ColorSpread spread;
         for (const auto& [i, j] : {std::pair(x, y), {x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}})
             if (window.pixels.contains(i, j)) spread.add(samples.color[at(i, j)]);
         const std::size_t pixel = result_.image.index(x, y);
@@ -111,7 +100,7 @@ class FieldFrame {
     void filterPixel(const SampleWeights& weights, const FieldWindow& window, const FieldSamples& samples,
                      int x, int y) {
         glm::dvec4 sum(0.0);
-        Spread spread;
+        ColorSpread spread;
         const int k = window.per_side;
         const std::size_t left = static_cast<std::size_t>(x - weights.margin_px - window.pixels.x0) * k;
         std::size_t row = static_cast<std::size_t>(y - weights.margin_px - window.pixels.y0) * k;

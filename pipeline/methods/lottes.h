@@ -5,6 +5,7 @@
 
 #include "pipeline/field_rays.h"
 #include "pipeline/grain.h"
+#include "pipeline/methods/color_spread.h"
 #include "pipeline/methods/method.h"
 #include "sdf/coverage_trace.h"
 #include "sdf/shader.h"
@@ -43,10 +44,16 @@ class LottesFrames {
     /// the pixel's own ray and its neighbours', rows of 3, 5 and 3. Where no ray has coverage, F alone weighs
     /// them; where F is 0 too, the pixel's own ray counts.
     std::vector<glm::dvec4> reconstruct(const std::vector<LottesRay>& rays, std::uint64_t frame) const;
+    /// Adds to each pixel's spread the colours of those of its 11 rays that have a weight.
+    void spread(const std::vector<LottesRay>& rays, std::vector<ColorSpread>& spreads) const;
 
   private:
     LottesRay rayOf(int x, int y, std::uint64_t frame, sdf::RayCounts& counts) const;
     glm::dvec4 pixel(const std::vector<LottesRay>& rays, int x, int y) const;
+    double f(const LottesRay& ray, int x, int y) const;
+    /// Of the 11 rays of a pixel: visit(ray).
+    template <class Visit>
+    void forRays(const std::vector<LottesRay>& rays, int x, int y, const Visit& visit) const;
 
     const MethodInput& in_;
     LottesSettings settings_;

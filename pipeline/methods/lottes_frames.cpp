@@ -62,31 +62,50 @@ std::vector<LottesRay> LottesFrames::trace(std::uint64_t frame, sdf::RayCounts& 
         checkCancelled(in_.progress);
         LottesRay* row = rays.data() + static_cast<std::size_t>(y - box.y0) * box.width();
         for (int x = box.x0; x < box.x1; ++x) row[x - box.x0] = rayOf(x, y, frame, parts.local());
-        in_.progress.advance(1);
     });
     for (const sdf::RayCounts& part : parts) counts += part;
     return rays;
 }
 
-glm::dvec4 LottesFrames::pixel(const std::vector<LottesRay>& rays, int x, int y) const {
+template <class Visit>
+void LottesFrames::forRays(const std::vector<LottesRay>& rays, int x, int y, const Visit& visit) const {
     const PixelBox box = window();
-    const auto at = [&](int i, int j) -> const LottesRay& {
-        return rays[static_cast<std::size_t>(j - box.y0) * box.width() + (i - box.x0)];
-    };
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -kRowReach[dy + 1]; dx <= kRowReach[dy + 1]; ++dx)
+            visit(rays[static_cast<std::size_t>(y + dy - box.y0) * box.width() + (x + dx - box.x0)]);
+}
+
+double LottesFrames::f(const LottesRay& ray, int x, int y) const {
+    const glm::dvec2 way = ray.p_px - (glm::dvec2(x, y) + 0.5);
+    return settings_.disk ? sdf::shading::diskWeight(dot(way, way), settings_.scale)
+                          : sdf::shading::gaussianWeight(dot(way, way), settings_.scale);
+}
+
+glm::dvec4 LottesFrames::pixel(const std::vector<LottesRay>& rays, int x, int y) const {
     glm::dvec4 covered(0.0), all(0.0);
     double covered_sum = 0.0, all_sum = 0.0;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -kRowReach[dy + 1]; dx <= kRowReach[dy + 1]; ++dx) {
-            const LottesRay& ray = at(x + dx, y + dy);
-            const glm::dvec2 way = ray.p_px - (glm::dvec2(x, y) + 0.5);
-            const double f = settings_.disk ? sdf::shading::diskWeight(dot(way, way), settings_.scale)
-                                            : sdf::shading::gaussianWeight(dot(way, way), settings_.scale);
-            all += f * ray.color, all_sum += f;
-            covered += f * ray.coverage * ray.color, covered_sum += f * ray.coverage;
-        }
+    forRays(rays, x, y, [&](const LottesRay& ray) {
+        const double weight = f(ray, x, y);
+        all += weight * ray.color, all_sum += weight;
+        covered += weight * ray.coverage * ray.color, covered_sum += weight * ray.coverage;
+    });
     // Below this the quotient has no digits left to trust.
     if (covered_sum > 1e-12) return covered / covered_sum;
-    return all_sum > 1e-12 ? all / all_sum : at(x, y).color;
+    const PixelBox box = window();
+    return all_sum > 1e-12 ? all / all_sum
+                           : rays[static_cast<std::size_t>(y - box.y0) * box.width() + (x - box.x0)].color;
+}
+
+void LottesFrames::spread(const std::vector<LottesRay>& rays, std::vector<ColorSpread>& spreads) const {
+    const PixelBox& crop = in_.film.crop;
+    tbb::parallel_for(crop.y0, crop.y1, [&](int y) {
+        for (int x = crop.x0; x < crop.x1; ++x) {
+            ColorSpread& here = spreads[static_cast<std::size_t>(y - crop.y0) * crop.width() + (x - crop.x0)];
+            forRays(rays, x, y, [&](const LottesRay& ray) {
+                if (f(ray, x, y) * ray.coverage > 0.0) here.add(ray.color);
+            });
+        }
+    });
 }
 
 std::vector<glm::dvec4> LottesFrames::reconstruct(const std::vector<LottesRay>& rays,

@@ -294,7 +294,6 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     if (!spec.composed.empty())
         fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
-    if (entry.needs_triangles) requireTriangles(input.scene, fmt::format("method '{}'", spec.typed));
     if (input.scene.field) return runOnField(entry, spec, input);
     if (!entry.run) fail(spec.typed, "traces SDF scenes, and this one is of triangles");
     const DeviceDecision decision = decideDevice(spec, input.options);

@@ -1,6 +1,7 @@
 #include "pipeline/vulkan/field_rays.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -18,14 +19,14 @@ constexpr std::uint32_t kTileRays = 64;
 
 struct GpuCone {
     float origin[3], direction[3];
-    float radius, spread, t_min, t_max, pixel_radius, pixel_slope;
+    float radius, spread, t_min, t_max, pixel_radius, pixel_slope, sign;
 };
 struct GpuTile {
     float begin, list_begin, list_end;
     std::uint32_t evaluations;
 };
-static_assert(sizeof(GpuRay) == 44 && sizeof(GpuRayState) == 52 && sizeof(GpuHit) == 48);
-static_assert(sizeof(GpuCone) == 48 && sizeof(GpuTile) == 16);
+static_assert(sizeof(GpuRay) == 44 && sizeof(GpuRayState) == 72 && sizeof(GpuHit) == 32);
+static_assert(sizeof(GpuCone) == 52 && sizeof(GpuTile) == 16);
 
 glm::dvec3 vectorOf(const float (&v)[3]) {
     return {v[0], v[1], v[2]};
@@ -48,9 +49,16 @@ GpuCone coneOf(std::span<const GpuRay> rays) {
     cone.t_max = -1.0f;
     if (count == 0.0) return cone;
     cone.t_min = INFINITY;
+    // Rays that go apart have no cone: they begin where the first of them does.
+    if (glm::length(direction) < 1e-3 * count) {
+        for (const GpuRay& ray : rays)
+            if (ray.t_max >= ray.t_min) cone.t_min = std::min(cone.t_min, ray.t_min);
+        return cone;
+    }
     const glm::vec3 o(origin / count), d(glm::normalize(direction));
     for (int k = 0; k < 3; ++k) cone.origin[k] = o[k], cone.direction[k] = d[k];
     double radius = 0.0, spread = 0.0;
+    bool first = true;
     for (const GpuRay& ray : rays) {
         if (ray.t_max < ray.t_min) continue;
         radius = std::max(radius, glm::distance(vectorOf(ray.origin), glm::dvec3(o)));
@@ -58,6 +66,9 @@ GpuCone coneOf(std::span<const GpuRay> rays) {
         cone.t_min = std::min(cone.t_min, ray.t_min), cone.t_max = std::max(cone.t_max, ray.t_max);
         cone.pixel_radius = std::max(cone.pixel_radius, ray.pixel_radius);
         cone.pixel_slope = std::max(cone.pixel_slope, ray.pixel_slope);
+        const float sign = ray.sign == 0.0f ? 1.0f : ray.sign;
+        cone.sign = first || cone.sign == sign ? sign : 0.0f;
+        first = false;
     }
     cone.radius = roundedUp(radius), cone.spread = roundedUp(spread);
     return cone;
@@ -87,6 +98,19 @@ std::size_t listBytes(const FieldShaders& shaders, std::size_t tiles) {
 }
 
 }  // namespace
+
+GpuRay gpuRay(const sdf::FieldRay& ray, double sign) {
+    GpuRay made;
+    for (int k = 0; k < 3; ++k) {
+        made.origin[k] = static_cast<float>(ray.origin_world[k]);
+        made.direction[k] = static_cast<float>(ray.direction_world[k]);
+    }
+    made.t_min = static_cast<float>(ray.t_min), made.t_max = static_cast<float>(ray.t_max);
+    made.pixel_radius = static_cast<float>(ray.pixel_radius);
+    made.pixel_slope = static_cast<float>(ray.pixel_slope);
+    made.sign = static_cast<float>(sign);
+    return made;
+}
 
 void FieldCounts::add(const FieldCounts& more) {
     rays += more.rays, evaluations += more.evaluations, iterations += more.iterations;
@@ -165,14 +189,15 @@ void FieldRays::runPass(const std::string& name, ComputePass& pass, Push push, s
 void FieldRays::checkFlags() const {
     const auto flags = flags_.read<std::uint32_t>(8);
     if (flags[4] != 0)
-        throw FailureError("map",
+        throw FailureError(shaders_.file,
                            fmt::format("line {}: a loop without end: the loops of one call take more than "
                                        "{} turns",
                                        flags[4], kUserTurns));
     if (flags[0] != 0)
-        throw FailureError("map", fmt::format("the distance at ({:.9g}, {:.9g}, {:.9g}) is not a number",
-                                              std::bit_cast<float>(flags[1]), std::bit_cast<float>(flags[2]),
-                                              std::bit_cast<float>(flags[3])));
+        throw FailureError(shaders_.file,
+                           fmt::format("the distance at ({:.9g}, {:.9g}, {:.9g}) is not a number",
+                                       std::bit_cast<float>(flags[1]), std::bit_cast<float>(flags[2]),
+                                       std::bit_cast<float>(flags[3])));
 }
 
 std::uint32_t FieldRays::activeRays() const {
@@ -235,12 +260,24 @@ void FieldRays::countAnswers(std::span<const GpuRayState> states) {
     for (const GpuRayState& state : states) {
         counts_.evaluations += state.evaluations;
         counts_.iterations += state.iterations;
-        counts_.failed_steps += state.failed;
+        counts_.failed_steps += static_cast<std::uint64_t>(state.at.failed);
     }
 }
 
+void FieldRays::finish(std::uint32_t count) {
+    const std::uint32_t turns =
+        static_cast<std::uint32_t>(settings_.discontinuity_steps) + shaders_.corners();
+    const std::uint32_t at_once = shaders_.user_loops ? 1 : evaluationsADispatch();
+    std::uint32_t from = 0;
+    do {
+        const std::uint32_t to = std::min(turns, from + at_once);
+        runPass("hits", finish_, {count, 0, from | to << 16u, from == 0 ? 1u : 0u, prune_ ? 1u : 0u}, count);
+        from = to;
+    } while (from < turns);
+}
+
 FieldAnswers FieldRays::trace(std::span<const GpuRay> rays, const glm::dvec4& bounds,
-                              const std::function<bool()>& cancelled) {
+                              const std::function<bool()>& cancelled, bool with_hits) {
     const auto count = static_cast<std::uint32_t>(rays.size()), tiles = count / kTileRays;
     const std::vector<std::uint32_t> rows = everyRow(shaders_.field);
     grow(device_, rays_, "field rays", rays.size_bytes());
@@ -253,7 +290,9 @@ FieldAnswers FieldRays::trace(std::span<const GpuRay> rays, const glm::dvec4& bo
     std::ranges::copy(rays, rays_->view<GpuRay>(count).begin());
     std::ranges::copy(rows, items_->view<std::uint32_t>(rows.size()).begin());
     const auto cones = cone_table_->view<GpuCone>(tiles);
-    for (std::uint32_t i = 0; i < tiles; ++i) cones[i] = coneOf(rays.subspan(i * kTileRays, kTileRays));
+    tbb::parallel_for(std::uint32_t(0), tiles, [&](std::uint32_t i) {
+        cones[i] = coneOf(rays.subspan(std::size_t{i} * kTileRays, kTileRays));
+    });
     traceCones(tiles, bounds, cancelled);
     if (prune_) makeLists(tiles);
 
@@ -265,11 +304,7 @@ FieldAnswers FieldRays::trace(std::span<const GpuRay> rays, const glm::dvec4& bo
         fresh = 0;
     } while (activeRays() > 0);
 
-    const std::uint32_t last = static_cast<std::uint32_t>(settings_.discontinuity_steps) + 5;
-    const std::uint32_t at_once = shaders_.user_loops ? 1 : std::max(1u, steps / 2);
-    for (std::uint32_t from = 0; from < last; from += at_once)
-        runPass("normals", finish_,
-                {count, 0, from | std::min(last, from + at_once) << 16u, from == 0 ? 1u : 0u, pruned}, count);
+    if (with_hits) finish(count);
     const FieldAnswers answers{states_->read<GpuRayState>(count), hits_->read<GpuHit>(count)};
     counts_.rays += count;
     countAnswers(answers.states);

@@ -10,6 +10,8 @@
 #include "pipeline/vulkan/compute_pass.h"
 #include "pipeline/vulkan/field_shader.h"
 #include "pipeline/vulkan/pass_graph.h"
+#include "sdf/reals.h"
+#include "sdf/sphere_trace.h"
 
 namespace edgewise::vulkan {
 
@@ -20,26 +22,34 @@ struct GpuRay {
     float sign = 0.0f;  ///< of the field; 0: of its value where the ray begins
 };
 
+GpuRay gpuRay(const sdf::FieldRay& ray, double sign);
+
 enum class FieldEnd : std::uint32_t { kRunning, kSurface, kCandidate, kFar, kOutOfSteps, kEmpty };
 
+namespace tracing {
+using real = float;
+using sdf::max, sdf::min;
+#include "shaders/shared/sdf_trace_step.glsl"
+}  // namespace tracing
+
 struct GpuRayState {
-    float t, before, step, omega, slope, sign, candidate_t, candidate_error, last_t;
-    std::uint32_t evaluations, iterations, failed;
+    tracing::TraceState at;
+    float sign;
+    std::uint32_t evaluations, iterations;
     FieldEnd end;
     bool hit() const { return end == FieldEnd::kSurface || end == FieldEnd::kCandidate; }
 };
 
-/// Of rays that hit; others are undefined. `color`: albedo() of a user's map.
+/// Of rays that hit; others are undefined. `value` is over L, times the ray's sign. `normal`, times the
+/// sign, and `color`: of maps, that albedo() gives.
 struct GpuHit {
-    float t, value, normal[3], local[3], color[3];
-    std::uint32_t material;
+    float t, value, normal[3], color[3];
 };
 
 struct FieldCounts {
     std::uint64_t rays = 0, evaluations = 0, iterations = 0, failed_steps = 0;
     std::uint64_t cone_evaluations = 0, tiles = 0, empty_tiles = 0, dispatches = 0;
     std::uint64_t lists = 0, list_rows = 0, long_lists = 0;
-    std::uint64_t table_rows = 0;
     void add(const FieldCounts& more);
 };
 
@@ -60,9 +70,9 @@ class FieldRays {
 
     /// A multiple of 64 rays, tile by tile. `bounds`: a sphere that holds what is listed; lists are made for
     /// the depths within. Throws FailureError naming a point where the field is no number, or the line of a
-    /// user's loop without end; Interrupted when `cancelled` says so.
+    /// user's loop without end; Interrupted when `cancelled` says so. `with_hits`: else states alone count.
     FieldAnswers trace(std::span<const GpuRay> rays, const glm::dvec4& bounds,
-                       const std::function<bool()>& cancelled = {});
+                       const std::function<bool()>& cancelled = {}, bool with_hits = true);
 
     const FieldCounts& counts() const { return counts_; }
     const std::vector<PassTime>& times() const { return times_; }
@@ -77,6 +87,7 @@ class FieldRays {
     std::uint32_t activeRays() const;
     void traceCones(std::uint32_t tiles, const glm::dvec4& bounds, const std::function<bool()>& cancelled);
     void makeLists(std::uint32_t tiles);
+    void finish(std::uint32_t count);
     void countLists(std::span<const std::uint32_t> items);  ///< of a tile
     void countAnswers(std::span<const GpuRayState> states);
     std::uint32_t evaluationsADispatch() const;

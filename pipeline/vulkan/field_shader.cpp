@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "field_cones_text.h"
 #include "field_field_text.h"
@@ -11,6 +12,7 @@
 #include "field_lists_text.h"
 #include "field_prune_main_text.h"
 #include "field_prune_text.h"
+#include "field_sdf_trace_step_text.h"
 #include "field_trace_text.h"
 #include "pipeline/vulkan/user_glsl.h"
 
@@ -22,17 +24,56 @@ namespace {
 /// and its colour.
 constexpr unsigned kMostUserTurns = 65535 / 8 - 2 * kUserTurns + kUserTurns;
 
-std::string numbersText(const sdf::TraceSettings& s, double lipschitz, bool user_loops) {
+std::string numbersText(const sdf::TraceSettings& s, const FieldShaders& made) {
     const auto flag = [](bool on) { return on ? "true" : "false"; };
     return fmt::format(
-        "const uint ew_relaxation = {}u, ew_most_iterations = {}u, ew_discontinuity = {}u;\n"
+        "const int ew_relaxation = {};\n"
+        "const uint ew_most_iterations = {}u, ew_discontinuity = {}u, ew_corners = {}u;\n"
         "const float ew_omega = {}, ew_threshold = {}, ew_inverse_lipschitz = {};\n"
         "const bool ew_screen_candidate = {}, ew_level_set = {}, ew_prepass = {};\n"
         "const uint ew_most_user_turns = {}u, ew_most_turns = {}u;\n",
         static_cast<int>(s.relaxation), std::max(s.most_steps, 1), std::max(s.discontinuity_steps, 0),
-        sdf::glslNumber(s.relaxation == sdf::Relaxation::kKeinert ? s.omega : 1.0),
-        sdf::glslNumber(s.threshold), sdf::glslNumber(1.0 / lipschitz), flag(s.screen_candidate),
-        flag(s.level_set), flag(s.prepass), kUserTurns, user_loops ? kMostUserTurns : 0xffffffffu);
+        made.corners(), sdf::glslNumber(s.omega), sdf::glslNumber(s.threshold),
+        sdf::glslNumber(1.0 / made.lipschitz), flag(s.screen_candidate), flag(s.level_set), flag(s.prepass),
+        kUserTurns, made.user_loops ? kMostUserTurns : 0xffffffffu);
+}
+
+bool isWord(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+/// What shared text declares: functions, constants and structs, each from a line's beginning.
+std::set<std::string, std::less<>> namesDeclared(std::string_view text) {
+    std::set<std::string, std::less<>> names;
+    for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1) {
+        const std::string_view line = text.substr(at, text.find('\n', at) - at);
+        if (!line.starts_with("EDGEWISE_FN ") && !line.starts_with("const ") && !line.starts_with("struct "))
+            continue;
+        std::size_t end = std::min(line.find_first_of("(={"), line.size());
+        while (end > 0 && !isWord(line[end - 1])) --end;
+        std::size_t begin = end;
+        while (begin > 0 && isWord(line[begin - 1])) --begin;
+        names.emplace(line.substr(begin, end - begin));
+    }
+    return names;
+}
+
+/// Shared text as GLSL in which all names begin with ew_: a user's map may have its own of the same names.
+std::string withOwnNames(std::string_view text) {
+    const auto names = namesDeclared(text);
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        while (end < text.size() && isWord(text[end])) ++end;
+        const std::string_view word = text.substr(at, end - at);
+        if (word == "real")
+            result += "float";
+        else if (word != "EDGEWISE_FN")
+            result.append(names.contains(word) ? "ew_" : "").append(word);
+        if (end < text.size()) result += text[end++];
+        at = end;
+    }
+    return result;
 }
 
 template <class Each>
@@ -83,26 +124,25 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
     }
     const bool batches = !made.field.batches.empty();
     std::string head = "#version 460\n";
-    head += numbersText(settings, made.lipschitz, made.user_loops);
+    head += numbersText(settings, made);
+    head += withOwnNames(kField_sdf_trace_step);
     head += kField_header;
     if (batches) head += batchesText(made) + std::string(kField_lists);
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
                     : "#define EW_ROWS_AT(tile, t)\n#define EW_ALL_ROWS\n";
     if (scene.glsl)  // undefined again before the user's text, which may have a function of that name
-        head +=
-            "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n"
-            "#define EW_WINNER_AT(p, local) 0xffffffffu\n";
+        head += "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n";
     else
-        head += made.field.text + "#define EW_WINNER_AT(p, local) winnerAt(p, local)\n";
+        head += made.field.text;
     head += made.user_albedo
                 ? "vec3 albedo(vec3 p, vec3 n);\n"
                   "vec3 ew_albedoAt(vec3 p, vec3 n) { ew_user_turns = 0u; return albedo(p, n); }\n"
                   "#define EW_ALBEDO(p, n) ew_albedoAt(p, n)\n"
                 : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
     head += kField_field;
-    const std::string file = scene.glsl ? scene.glsl->file : scene.source;
+    made.file = scene.glsl ? scene.glsl->file : scene.source;
     const auto compile = [&](std::string_view body) {
-        return compileWithUserGlsl(head + std::string(body) + "#undef fieldAt\n" + user.text, file);
+        return compileWithUserGlsl(head + std::string(body) + "#undef fieldAt\n" + user.text, made.file);
     };
     made.trace = compile(kField_trace);
     made.finish = compile(kField_finish);

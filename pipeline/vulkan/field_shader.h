@@ -21,9 +21,12 @@ inline constexpr std::uint32_t kFieldListRows = 128, kFieldCoarseRows = 512;
 struct FieldShaders {
     std::vector<std::uint32_t> trace, finish, cones, prune;  ///< SPIR-V; prune: empty without batches
     sdf::GlslField field;                                    ///< empty text: a raw map
+    std::string file;                                        ///< for messages
     bool user_loops = false, user_albedo = false;
     double lipschitz = 1.0;
     std::uint32_t fine_stride = 0, tile_stride = 0;  ///< words of a fine segment's lists, of all of a tile's
+    /// Evaluations after a hit that find a map's slope; trees have theirs in closed form.
+    std::uint32_t corners() const { return field.text.empty() ? 4 : 0; }
     /// Of an evaluation, at most, in a dispatch's turns of loops.
     std::uint32_t turnsOfEvaluation() const { return field.rows() + 1; }
 };

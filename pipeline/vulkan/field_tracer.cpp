@@ -1,18 +1,27 @@
-// makeVulkanFieldTracer: rays on the device, in bands under --memory; colours by the host from its hits.
+// makeVulkanFieldTracer: rays of every generation on the device, in bands under --memory; light by the host.
+//
+// Tracing is nearly all of the work, and the device's; between two generations the host has a few hundred
+// operations a ray, which sdf::Shader has in double: so both devices' pictures have one shading.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <chrono>
 #include <cmath>
 
+#include "pipeline/field_rays.h"
+#include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
-#include "pipeline/lighting.h"
+#include "pipeline/vulkan/field_batches.h"
 #include "pipeline/vulkan/field_window.h"
 
 namespace edgewise {
 namespace {
 
 using namespace vulkan;
+
+/// Secondary rays begin no nearer to the surface, times the distance from the eye: 2^-18, 64 roundings of
+/// float.
+constexpr double kFloatEpsilon = 0x1p-18;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -25,17 +34,29 @@ glm::dvec4 sphereAround(const sdf::Box& box, double margin) {
     return {0.5 * (low + high), 0.5 * glm::distance(low, high) + margin};
 }
 
+sdf::TraceSettings settingsFor(const MethodInput& input, sdf::TraceSettings trace) {
+    trace.epsilon = std::max(trace.epsilon, kFloatEpsilon);
+    return sdf::trustedSettings(*input.scene.field, trace);
+}
+
 class VulkanFieldTracer : public FieldTracer {
   public:
     VulkanFieldTracer(const MethodInput& input, const FieldSettings& settings)
-        : input_(input), settings_(settings), scene_(*input.scene.field), light_(input.scene, input.camera) {
+        : input_(input),
+          settings_(settingsFor(input, settings.trace)),
+          scene_(*input.scene.field),
+          tape_(scene_.glsl ? sdf::Tape{} : loweredTree(scene_)),
+          grid_(rayGrid(input.camera, input.film, scene_.far)),
+          closed_(scene_, tape_, settings_),
+          shader_(fieldShading(input, settings_, false), closed_) {
         const auto start = std::chrono::steady_clock::now();
-        settings_.trace.prune = settings.trace.prune && !input.options.keeps("empty");
         device_.emplace();
-        shaders_ = makeFieldShaders(scene_, settings_.trace, input.film.width, input.film.height,
-                                    settings_.trace.prune);
-        rays_.emplace(*device_, shaders_, settings_.trace, settings_.trace.prune);
-        if (!scene_.glsl && !input.options.keeps("empty")) bounds_ = boundsOf();
+        if (scene_.glsl || tape_.size() > 0) makeRays();
+        batches_.emplace(scene_, tape_, shaders_, settings_, rays_ ? &*rays_ : nullptr, around_, most_,
+                         [this] { return input_.progress.cancelled(); });
+        // The field's sign at the eye; a map's is found by its rays.
+        if (!grid_.perspective) sign_ = 1.0;
+        if (grid_.perspective && !scene_.glsl) sign_ = closed_.signAt(grid_.eye_world);
         setup_seconds_ = secondsSince(start);
     }
 
@@ -46,66 +67,66 @@ class VulkanFieldTracer : public FieldTracer {
     void report(MethodResult& result) const override {
         result.device = device_->traits().name;
         result.setup_seconds += setup_seconds_;
-        for (const PassTime& time : rays_->times()) result.stages.push_back({time.name, time.seconds});
-        result.stages.push_back({"shade", shade_seconds_});
-        const FieldCounts& counts = rays_->counts();
-        result.counts["field_evaluations"] += counts.evaluations + counts.cone_evaluations;
-        result.counts["cone_evaluations"] += counts.cone_evaluations;
-        result.counts["trace_iterations"] += counts.iterations;
-        result.counts["failed_steps"] += counts.failed_steps;
-        result.counts["tiles"] += counts.tiles;
-        result.counts["empty_tiles"] += counts.empty_tiles;
-        result.counts["dispatches"] += counts.dispatches;
-        result.counts["listed_rows"] += counts.list_rows;
-        result.counts["lists"] += counts.lists;
-        result.counts["long_lists"] += counts.long_lists;
+        if (rays_)
+            for (const PassTime& time : rays_->times()) result.stages.push_back({time.name, time.seconds});
+        const double host = seconds_ - deviceSeconds();
+        result.stages.push_back({"shade", std::max(host, 0.0)});
+        addCounts(result.counts);
         addPlan(result);
     }
 
   private:
-    glm::dvec4 boundsOf() const {
-        // What ends a ray is a hit within the threshold, and the levels of a bound may lie farther out.
-        const sdf::Box box = levelBox(scene_.tree, scene_.tree.root);
-        const glm::dvec4 around = sphereAround(box, 0.0);
-        if (!std::isfinite(around.w)) return around;
-        const glm::dvec3 eye(glm::inverse(input_.camera.camera_from_world)[3]);
-        const double farthest = glm::distance(eye, glm::dvec3(around)) + around.w;
-        const Camera& camera = input_.camera.camera;
-        const double pixel = camera.perspective ? farthest * std::tan(0.5 * camera.yfov) / input_.film.height
-                                                : camera.ymag / input_.film.height;
-        const double level = shaders_.lipschitz * std::max(1.0, settings_.trace.threshold) * pixel * 2.0;
-        return sphereAround(levelBox(scene_.tree, scene_.tree.root, level), 1e-5 * farthest);
+    void makeRays() {
+        const bool prune = settings_.prune && !input_.options.keeps("empty");
+        shaders_ = makeFieldShaders(scene_, settings_, input_.film.width, input_.film.height, prune);
+        rays_.emplace(*device_, shaders_, settings_, prune);
+        // A sixteenth of --memory for the device's buffers, several times that for the host's rays and hits;
+        // the picture and the samples have the rest.
+        most_ = FieldRays::most(*device_, shaders_, (input_.options.memory_mib << 20) / 16);
+        if (!scene_.glsl && !input_.options.keeps("empty") && scene_.bound_holds) around_ = sphereOf();
+    }
+
+    /// What ends a ray is a hit within the threshold, and the levels of a bound may lie farther out.
+    FieldSphere sphereOf() const {
+        const glm::dvec4 solid = sphereAround(levelBox(scene_.tree, scene_.tree.root), 0.0);
+        if (!std::isfinite(solid.w)) return {};
+        const double farthest = glm::distance(grid_.eye_world, glm::dvec3(solid)) + solid.w;
+        const double pixel = grid_.halfPixel() * (grid_.perspective ? farthest : 1.0);
+        const double level = 2.0 * std::max(1.0, settings_.threshold) * pixel;
+        const sdf::Box box = levelBox(scene_.tree, scene_.tree.root, level * shaders_.lipschitz);
+        return {sphereAround(box, 1e-5 * farthest), level};
     }
 
     FieldSamples traceBands(const FieldWindow& window) {
+        const auto start = std::chrono::steady_clock::now();
         FieldSamples samples;
         const std::size_t stride = window.stride(),
                           rows = window.samples() / std::max<std::size_t>(stride, 1);
         resize(samples, window.samples());
-        // A quarter of --memory for the device's buffers: the picture and the samples have the rest.
-        const std::size_t most = FieldRays::most(*device_, shaders_, (input_.options.memory_mib << 20) / 4);
         const std::size_t tile_row = (stride + kFieldTile - 1) / kFieldTile * kFieldTile * kFieldTile;
-        const std::size_t band = std::max<std::size_t>(1, most / tile_row) * kFieldTile;
+        const std::size_t band = std::max<std::size_t>(1, most_ / tile_row) * kFieldTile;
         for (std::size_t first = 0; first < rows; first += band)
             traceBand(window, first, std::min(rows, first + band), samples);
+        seconds_ += secondsSince(start);
         return samples;
     }
 
     void traceBand(const FieldWindow& window, std::size_t first, std::size_t last, FieldSamples& samples) {
-        const glm::dvec4 lists = std::isfinite(bounds_.w) ? bounds_ : sphereAround(scene_.bounds, 0.0);
-        const std::vector<GpuRay> rays = raysOf(input_, window, first, last, scene_.far, bounds_);
-        const FieldAnswers answers =
-            rays_->trace(rays, std::isfinite(lists.w) ? lists : glm::dvec4(0.0, 0.0, 0.0, scene_.far),
-                         [&] { return input_.progress.cancelled(); });
-        const auto start = std::chrono::steady_clock::now();
+        std::vector<sdf::TravellingRay> rays = raysOf(grid_, window, first, last, sign_);
+        const std::vector<sdf::SurfaceHit> hits = batches_->nearest(rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (rays[i].sign == 0.0) rays[i].sign = hits[i].ofField() && hits[i].inside ? -1.0 : 1.0;
+            primary_.evaluations += hits[i].evaluations;
+            primary_.primary += rays[i].ray.t_max > rays[i].ray.t_min;
+        }
+        const std::vector<glm::dvec4> colors = shadeWavefront(shader_, *batches_, rays, hits, secondary_);
         const std::size_t stride = window.stride();
         tbb::parallel_for(first, last, [&](std::size_t row) {
             for (std::size_t column = 0; column < stride; ++column) {
                 const std::size_t ray = rayIndex(column, row - first, stride);
-                fill(samples, row * stride + column, rays[ray], answers.states[ray], answers.hits[ray]);
+                fill(samples, row * stride + column, rays[ray].ray, hits[ray], colors[ray]);
             }
         });
-        shade_seconds_ += secondsSince(start);
     }
 
     static void resize(FieldSamples& samples, std::size_t count) {
@@ -114,70 +135,100 @@ class VulkanFieldTracer : public FieldTracer {
         samples.evaluations.resize(count), samples.iterations.resize(count);
     }
 
-    void fill(FieldSamples& samples, std::size_t at, const GpuRay& ray, const GpuRayState& state,
-              const GpuHit& hit) const {
-        samples.evaluations[at] = state.evaluations, samples.iterations[at] = state.iterations;
-        samples.depth[at] = INFINITY, samples.surface[at] = kNone, samples.normal[at] = glm::vec3(0.0f);
-        samples.residual[at] = 0.0f;
-        samples.color[at] = glm::dvec4(input_.options.background, 0.0);
-        if (!state.hit()) return;
-        const glm::dvec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
-        samples.depth[at] = hit.t, samples.normal[at] = normal;
-        samples.residual[at] = static_cast<float>(hit.value * shaders_.lipschitz);
-        samples.surface[at] =
-            std::min<std::uint32_t>(hit.material, static_cast<std::uint32_t>(scene_.materials.size()) - 1);
-        const glm::dvec3 p = glm::dvec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
-                             double(hit.t) * glm::dvec3(ray.direction[0], ray.direction[1], ray.direction[2]);
-        samples.color[at] = glm::dvec4(shade(hit, samples.surface[at], p, normal), 1.0);
+    static void fill(FieldSamples& samples, std::size_t at, const sdf::FieldRay& ray,
+                     const sdf::SurfaceHit& hit, const glm::dvec4& color) {
+        samples.color[at] = color;
+        samples.evaluations[at] = hit.evaluations, samples.iterations[at] = hit.iterations;
+        samples.depth[at] = hit.hit ? hit.t : HUGE_VAL;
+        samples.surface[at] = hit.hit ? hit.material : kNone;
+        samples.normal[at] = glm::vec3(0.0f), samples.residual[at] = 0.0f;
+        if (!hit.hit) return;
+        const bool away = glm::dot(hit.normal_world, ray.direction_world) > 0.0;
+        samples.normal[at] = glm::vec3(away ? -hit.normal_world : hit.normal_world);
+        samples.residual[at] = static_cast<float>(hit.value);
     }
 
-    glm::dvec3 shade(const GpuHit& hit, std::uint32_t index, const glm::dvec3& p, const glm::dvec3& n) const {
-        const sdf::SurfaceMaterial& material = scene_.materials[index];
-        const glm::dvec3 color =
-            shaders_.user_albedo ? glm::dvec3(hit.color[0], hit.color[1], hit.color[2]) : material.color;
-        if (material.shading == sdf::SurfaceMaterial::Shading::kUnlit) return color + material.emission;
-        const glm::dvec3 p_eye(input_.camera.camera_from_world * glm::dvec4(p, 1.0));
-        const glm::dvec3 n_eye = glm::dmat3(input_.camera.camera_from_world) * n;
-        glm::dvec3 light = light_.isRig() ? glm::dvec3(kRigAmbient) : scene_.ambient;
-        for (std::size_t i = 0; i < light_.count(); ++i) {
-            const auto arrival = light_.arrival(i, p_eye);
-            light += arrival.illuminance * (std::max(0.0, glm::dot(n_eye, arrival.towards)) / M_PI);
-        }
-        return material.emission + color * light;
+    double deviceSeconds() const {
+        double sum = 0.0;
+        if (rays_)
+            for (const PassTime& time : rays_->times()) sum += time.seconds;
+        return sum;
+    }
+
+    void addCounts(std::map<std::string, std::uint64_t>& into) const {
+        const FieldCounts counts = rays_ ? rays_->counts() : FieldCounts{};
+        into["instructions_of_tape"] = tape_.size();
+        into["rays"] += primary_.primary, into["evaluations"] += primary_.evaluations;
+        into["field_evaluations"] += counts.evaluations + counts.cone_evaluations;
+        into["secondary_evaluations"] += counts.evaluations - primary_.evaluations;
+        into["cone_evaluations"] += counts.cone_evaluations;
+        into["iterations"] += counts.iterations, into["failed_steps"] += counts.failed_steps;
+        into["shadow_rays"] += secondary_.shadow, into["reflection_rays"] += secondary_.reflection;
+        into["refraction_rays"] += secondary_.refraction;
+        into["tiles"] += counts.tiles, into["tiles_empty"] += counts.empty_tiles;
+        into["dispatches"] += counts.dispatches;
+        into["lists"] += counts.lists, into["listed_rows"] += counts.list_rows;
+        into["long_lists"] += counts.long_lists;
     }
 
     void addPlan(MethodResult& result) const {
+        const bool convex = settings_.convex && scene_.convex.has_value();
+        const bool batches = !shaders_.field.batches.empty();
+        result.plan.push_back({"prepass", rays_ && settings_.prepass, prepassWords()});
+        result.plan.push_back({"prune", rays_ && !shaders_.prune.empty(), pruneWords()});
+        result.plan.push_back({"table", batches, tableWords()});
+        result.plan.push_back({"convex", convex,
+                               convex          ? "rays are traced within the scene's convex bound alone"
+                               : scene_.convex ? "switched off"
+                                               : "the scene names no convex bound"});
+        result.plan.push_back({"analytic", !scene_.analytic.empty(),
+                               fmt::format("{} shapes are met in closed form", scene_.analytic.size())});
+    }
+    std::string prepassWords() const {
+        if (!rays_) return "the scene has no field";
+        if (!scene_.bound_holds) return "the field changes faster than its bound says";
+        if (!settings_.prepass) return "switched off";
         const FieldCounts& counts = rays_->counts();
-        result.plan.push_back(
-            {"prepass", settings_.trace.prepass,
-             settings_.trace.prepass
-                 ? fmt::format("cones of {} tiles of 8x8 samples took {} evaluations; {} tiles "
-                               "are empty",
-                               counts.tiles, counts.cone_evaluations, counts.empty_tiles)
-                 : std::string("switched off")});
-        const bool lists = !shaders_.prune.empty();
-        result.plan.push_back(
-            {"prune", lists,
-             lists ? fmt::format("{} of {} like children count in a tile's segment, in the mean",
-                                 counts.list_rows / std::max<std::uint64_t>(counts.lists, 1),
-                                 shaders_.field.rows())
-                   : std::string(!settings_.trace.prune ? "switched off"
-                                                        : "no fold of many like children: the shader is "
-                                                          "straight-line")});
-        if (shaders_.field.batches.empty()) return;
-        for (const sdf::GlslBatch& batch : shaders_.field.batches)
-            result.notes.push_back(fmt::format("{} children of a fold are a loop over a table", batch.rows));
+        return fmt::format("cones of {} tiles of 64 rays took {} evaluations; {} tiles are empty",
+                           counts.tiles, counts.cone_evaluations, counts.empty_tiles);
+    }
+    std::string pruneWords() const {
+        if (!rays_) return "the scene has no field";
+        if (!scene_.bound_holds) return "the field changes faster than its bound says";
+        if (!settings_.prune || input_.options.keeps("empty")) return "switched off";
+        if (shaders_.prune.empty()) return "no fold of many like children: the shader is straight-line";
+        const FieldCounts& counts = rays_->counts();
+        const double lists = static_cast<double>(std::max<std::uint64_t>(counts.lists, 1));
+        return fmt::format("of {} like children {:.1f} count in a segment of a tile's depth, by {} lists",
+                           shaders_.field.rows(),
+                           static_cast<double>(counts.list_rows) / lists *
+                               static_cast<double>(shaders_.field.batches.size()),
+                           counts.lists);
+    }
+    std::string tableWords() const {
+        const auto& batches = shaders_.field.batches;
+        if (batches.empty()) return "no fold has many like children";
+        std::string words;
+        for (const sdf::GlslBatch& batch : batches)
+            words += fmt::format("{}{}", words.empty() ? "" : ", ", batch.rows);
+        return words + " children of folds are loops over a table";
     }
 
-    const MethodInput& input_;
-    FieldSettings settings_;
+    const MethodInput input_;
+    const sdf::TraceSettings settings_;
     const sdf::FieldScene& scene_;
-    Lighting light_;
+    const sdf::Tape tape_;
+    const sdf::RayGrid grid_;
+    const sdf::SceneTracer closed_;
+    const sdf::Shader shader_;
     std::optional<Device> device_;
     FieldShaders shaders_;
     std::optional<FieldRays> rays_;
-    glm::dvec4 bounds_{0.0, 0.0, 0.0, INFINITY};
-    double setup_seconds_ = 0.0, shade_seconds_ = 0.0;
+    std::size_t most_ = std::size_t{1} << 20;
+    FieldSphere around_;
+    std::optional<FieldBatches> batches_;
+    double sign_ = 0.0, setup_seconds_ = 0.0, seconds_ = 0.0;
+    sdf::RayCounts primary_, secondary_;
 };
 
 }  // namespace

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "pipeline/field_tracer.h"
-#include "pipeline/vulkan/field_rays.h"
+#include "sdf/ray_grid.h"
+#include "sdf/surface_light.h"
 
 namespace edgewise::vulkan {
 
@@ -17,9 +18,8 @@ inline std::size_t rayIndex(std::size_t column, std::size_t row, std::size_t str
            row % kFieldTile * kFieldTile + column % kFieldTile;
 }
 
-/// The rays of sample rows [first_row, last_row); samples beyond the window trace nothing. A ray ends at
-/// `far` and where it leaves `bounds` (a sphere), or at once where it misses that.
-std::vector<GpuRay> raysOf(const MethodInput& input, const FieldWindow& window, std::size_t first_row,
-                           std::size_t last_row, double far, const glm::dvec4& bounds);
+/// The rays of sample rows [first_row, last_row); samples beyond the window have rays without a length.
+std::vector<sdf::TravellingRay> raysOf(const sdf::RayGrid& grid, const FieldWindow& window,
+                                       std::size_t first_row, std::size_t last_row, double sign);
 
 }  // namespace edgewise::vulkan

@@ -1,5 +1,6 @@
 // How far every ray of a tile may start: a cone around them steps through the empty part. The ray at u is within
 // radius + spread u of the axis at u, so within that + (u - t) of the axis at t.
+// Where rays differ in sign, no cone goes anywhere.
 
 void main() {
     uint i = gl_GlobalInvocationID.x + ew_first;
@@ -13,7 +14,7 @@ void main() {
     EW_ALL_ROWS;
     for (uint k = 0u; k < ew_steps && open && t <= cone.t_max && ew_turns <= ew_most_turns && !ew_failed(); ++k) {
         ++ew_turns;
-        float value = ew_fieldAt(origin + direction * t);
+        float value = cone.sign * ew_fieldAt(origin + direction * t);
         ++tile.evaluations;
         float radius = cone.radius + cone.spread * t;
         float pixel = ew_threshold * (cone.pixel_radius + cone.pixel_slope * t);

@@ -9,19 +9,18 @@ struct EwRay {
     float sign;                        // of the field that is traced; 0: of the value where the ray begins
 };
 struct EwState {
-    float t, before;                   // where to ask next; the field at the point before (signed), over L
-    float step, omega, slope, sign;
-    float candidate_t, candidate_error, last_t;
-    uint evaluations, iterations, failed, end;
+    ew_TraceState at;
+    float sign;
+    uint evaluations, iterations, end;
 };
 struct EwHit {
-    float t, value, normal_x, normal_y, normal_z, local_x, local_y, local_z, color_r, color_g, color_b;
-    uint material;
+    float t, value, normal_x, normal_y, normal_z, color_r, color_g, color_b;  // value: over L, times the sign
 };
 struct EwCone {
     float origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
     float radius, spread;              // rays of the tile are within radius + spread t of the axis at t
     float t_min, t_max, pixel_radius, pixel_slope;  // the least, the largest, the largest of the rays
+    float sign;                                     // of all rays; 0: they differ
 };
 struct EwTile { float begin, list_begin, list_end; uint evaluations; };
 

@@ -6,9 +6,9 @@ void ew_makeLists(EwCone cone, float begin, float end) {
                   vec3(cone.direction_x, cone.direction_y, cone.direction_z) * middle;
     float across = cone.spread * end;
     float reach = sqrt(half_width * half_width + across * across + half_width * across * cone.spread);
-    // What the slope is taken from beside the rays; see finish.glsl.
-    float beside = cone.pixel_radius + cone.pixel_slope * end + 6.0e-4 * max(length(center), end);
-    listsFor(center, (reach + cone.radius) * 1.00001 + beside);
+    // 2^-20: the roundings of a ray's position and of this one's.
+    float rounding = 9.5367431640625e-07 * (length(center) + end);
+    listsFor(center, (reach + cone.radius) * 1.00001 + rounding);
 }
 
 void main() {

@@ -12,8 +12,8 @@ readonly here
 # A count of hard cases that changes, or a shrinker that stops, is no proof that the picture is judged; the nightly
 # sizes take hours.
 readonly asked='-*MeetTheHardCases*:Shrink*:*Nightly*'
-readonly programs=(property fuzz analytic exact)
-readonly copied=(CMakeLists.txt LICENSE README.md analytic cmake data pipeline shaders tests)
+readonly programs=(sdf property fuzz analytic exact)
+readonly copied=(CMakeLists.txt LICENSE README.md analytic cmake data paper_figures pipeline sdf shaders tests)
 
 fail() {
     printf 'mutations: error: %s\n' "$*" >&2

@@ -131,7 +131,8 @@ TEST(SdfScenes, MethodsThatNeedTrianglesSaySo) {
         } catch (const InputError& error) {
             EXPECT_EQ(error.what(),
                       "method '" + std::string(method) +
-                          "': needs triangles, and this build does not polygonize SDF scenes yet");
+                          "': needs triangles, and this build does not polygonize SDF scenes yet; "
+                          "--method none or ssaa:4 traces the field");
         }
     }
 }

@@ -21,7 +21,7 @@ LanePoints randomPoints(std::mt19937_64& random) {
 
 void expectScalarBits(const Tape& tape, LaneValuesFunction values, const LanePoints& p, const char* isa) {
     alignas(64) double lanes[kPointLanes];
-    values(tape.instructions.data(), tape.instructions.data() + tape.size(), tape.numbers.data(), p, lanes);
+    values(tape, p, lanes);
     for (int i = 0; i < kPointLanes; ++i) {
         const double alone = valueAt(tape, glm::dvec3(p.axis[0][i], p.axis[1][i], p.axis[2][i]));
         EXPECT_EQ(std::bit_cast<std::uint64_t>(lanes[i]), std::bit_cast<std::uint64_t>(alone))

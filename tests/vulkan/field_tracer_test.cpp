@@ -10,6 +10,7 @@
 #include <functional>
 #include <random>
 
+#include "pipeline/field_rays.h"
 #include "pipeline/vulkan/field_rays.h"
 #include "pipeline/vulkan/field_window.h"
 #include "sdf/evaluate.h"
@@ -77,13 +78,11 @@ void addSpheres(sdf::Tree& tree, int count, double radius) {
 }
 
 glm::dvec3 pointOf(Setting& s, const FieldSamples& samples, std::size_t i) {
-    FieldWindow window;
-    window.pixels = s.film.crop;
-    const auto rays = raysOf(s.input(), window, 0, window.stride(), 100.0, {0, 0, 0, INFINITY});
-    const GpuRay& ray = rays[rayIndex(i % window.stride(), i / window.stride(), window.stride())];
-    glm::dvec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = ray.origin[k] + samples.depth[i] * ray.direction[k];
-    return p;
+    const std::size_t width = s.film.width;
+    const sdf::FieldRay ray =
+        rayGrid(s.camera, s.film, 100.0)
+            .ray(glm::dvec2(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5));
+    return ray.origin_world + samples.depth[i] * ray.direction_world;
 }
 
 std::size_t hits(const FieldSamples& samples) {
@@ -198,7 +197,9 @@ TEST_F(FieldOnDevice, ManyDispatchesMakeTheSamePicture) {
     const MethodInput in = s.input();
     FieldWindow window;
     window.pixels = s.film.crop;
-    const auto rays = raysOf(in, window, 0, 32, 100.0, {0, 0, 0, INFINITY});
+    std::vector<GpuRay> rays;
+    for (const sdf::TravellingRay& ray : raysOf(rayGrid(in.camera, in.film, 100.0), window, 0, 32, 1.0))
+        rays.push_back(gpuRay(ray.ray, ray.sign));
     sdf::TraceSettings settings;
     const FieldShaders shaders = makeFieldShaders(*s.field, settings, 32, 32, true);
     std::vector<float> first;

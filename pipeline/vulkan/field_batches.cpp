@@ -1,0 +1,149 @@
+#include "pipeline/vulkan/field_batches.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "sdf/analytic_shape.h"
+#include "sdf/describe_hits.h"
+
+namespace edgewise::vulkan {
+namespace {
+
+constexpr std::size_t kTileRays = 64;
+
+std::size_t wholeTiles(std::size_t rays) {
+    return (rays + kTileRays - 1) / kTileRays * kTileRays;
+}
+
+template <class Work>
+void eachTile(std::size_t rays, const Work& work) {
+    tbb::parallel_for(std::size_t(0), wholeTiles(rays) / kTileRays, [&](std::size_t tile) {
+        work(tile * kTileRays, std::min(rays, (tile + 1) * kTileRays));
+    });
+}
+
+glm::dvec3 vectorOf(const float (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+FieldBatches::FieldBatches(const sdf::FieldScene& scene, const sdf::Tape& tape, const FieldShaders& shaders,
+                           const sdf::TraceSettings& settings, FieldRays* rays, const FieldSphere& around,
+                           std::size_t most, std::function<bool()> cancelled)
+    : scene_(scene),
+      tape_(tape),
+      shaders_(shaders),
+      settings_(settings),
+      rays_(rays),
+      around_(around),
+      lists_(std::isfinite(around.sphere.w) ? around.sphere : glm::dvec4(0.0, 0.0, 0.0, scene.far)),
+      most_(most),
+      cancelled_(std::move(cancelled)),
+      closed_(scene, tape, settings) {}
+
+/// Where the ray leaves the sphere, if what it may hit there is no higher than the sphere's level.
+double FieldBatches::lastT(const GpuRay& ray, double t_max) const {
+    if (!std::isfinite(around_.sphere.w)) return t_max;
+    const auto [enters, leaves] = sdf::meetSphere(vectorOf(ray.origin), vectorOf(ray.direction),
+                                                  glm::dvec3(around_.sphere), around_.sphere.w);
+    const double last = std::min(t_max, std::max(leaves, 0.0));
+    const double radius = std::max<double>(ray.pixel_radius, ray.pixel_radius + ray.pixel_slope * last);
+    return std::max(settings_.threshold, 1.0) * radius <= around_.level ? std::min(t_max, leaves) : t_max;
+}
+
+GpuRay FieldBatches::ask(const sdf::TravellingRay& ray, Question& question) const {
+    closed_.meetAnalytic(ray.ray, question.closed);
+    sdf::FieldRay part = ray.ray;
+    if (question.closed.hit) part.t_max = question.closed.t;
+    const sdf::FieldRay whole = part;
+    if (!closed_.withinBound(part)) return {};
+    question.backwards = closed_.backwards(whole, part, ray.sign);
+    question.t_end = part.t_max;
+    GpuRay made = question.backwards ? gpuRay(sdf::SceneTracer::reversed(whole, part.t_max), 1.0)
+                                     : gpuRay(part, ray.sign);
+    made.t_max = static_cast<float>(lastT(made, made.t_max));
+    return made.t_min < made.t_max ? made : GpuRay{};
+}
+
+FieldAnswers FieldBatches::traceField(const std::vector<GpuRay>& rays, bool with_hits) {
+    if (!rays_) return {};
+    return rays_->trace(rays, lists_, cancelled_, with_hits);
+}
+
+sdf::SurfaceHit FieldBatches::answer(const sdf::TravellingRay& ray, const Question& question,
+                                     const GpuRayState& state, const GpuHit& hit) const {
+    sdf::SurfaceHit out = question.closed;
+    out.evaluations = state.evaluations, out.iterations = state.iterations;
+    if (!state.hit()) return out;
+    out.hit = true, out.shape = sdf::SurfaceHit::kField;
+    out.inside = question.backwards || state.sign < 0.0f;
+    out.t = question.backwards ? question.t_end - hit.t : hit.t;
+    out.value = static_cast<double>(hit.value) * state.sign * shaders_.lipschitz;
+    out.p_world = ray.ray.origin_world + ray.ray.direction_world * out.t;
+    if (!scene_.glsl) return out;
+    out.p_local = out.p_world;
+    out.normal_world = glm::normalize(vectorOf(hit.normal)) * static_cast<double>(state.sign);
+    out.material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+    if (shaders_.user_albedo) out.color = vectorOf(hit.color);
+    return out;
+}
+
+/// Of a tree's hits among neighbours.
+void FieldBatches::describe(std::span<sdf::SurfaceHit> hits) const {
+    if (tape_.size() == 0) return;
+    std::vector<sdf::SurfaceHit*> of_field;
+    for (sdf::SurfaceHit& hit : hits)
+        if (hit.hit && hit.ofField()) of_field.push_back(&hit);
+    sdf::describeHits(tape_, of_field, scene_.materials.size(), settings_.prune);
+}
+
+void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits) {
+    std::vector<Question> questions(rays.size());
+    std::vector<GpuRay> asked(wholeTiles(rays.size()));
+    eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) asked[i] = ask(rays[i], questions[i]);
+    });
+    const FieldAnswers answers = traceField(asked, true);
+    eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            hits[i] = rays_ ? answer(rays[i], questions[i], answers.states[i], answers.hits[i])
+                            : questions[i].closed;
+        describe(hits.subspan(first, last - first));
+    });
+}
+
+void FieldBatches::occludedPart(std::span<const sdf::TravellingRay> rays, std::span<char> hidden) {
+    std::vector<GpuRay> asked(wholeTiles(rays.size()));
+    eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            Question question;
+            asked[i] = ask(rays[i], question);
+            hidden[i] = question.closed.hit;
+            if (question.closed.hit) asked[i] = {};
+        }
+    });
+    const FieldAnswers answers = traceField(asked, false);
+    for (std::size_t i = 0; rays_ && i < rays.size(); ++i) hidden[i] = hidden[i] || answers.states[i].hit();
+}
+
+std::vector<sdf::SurfaceHit> FieldBatches::nearest(std::span<const sdf::TravellingRay> rays) {
+    std::vector<sdf::SurfaceHit> hits(rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += most_) {
+        const std::size_t count = std::min(most_, rays.size() - first);
+        nearestPart(rays.subspan(first, count), std::span(hits).subspan(first, count));
+    }
+    return hits;
+}
+
+std::vector<char> FieldBatches::occluded(std::span<const sdf::TravellingRay> rays) {
+    std::vector<char> hidden(rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += most_) {
+        const std::size_t count = std::min(most_, rays.size() - first);
+        occludedPart(rays.subspan(first, count), std::span(hidden).subspan(first, count));
+    }
+    return hidden;
+}
+
+}  // namespace edgewise::vulkan

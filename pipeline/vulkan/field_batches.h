@@ -1,0 +1,62 @@
+// Batches of rays through a whole scene: its field on the device, closed forms and the convex bound by the
+// host.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "pipeline/field_wavefront.h"
+#include "pipeline/vulkan/field_rays.h"
+#include "sdf/scene_trace.h"
+
+namespace edgewise::vulkan {
+
+/// A sphere that all points lie in whose value is at most `level` over the field's bound; infinite radius: no
+/// sphere is known.
+struct FieldSphere {
+    glm::dvec4 sphere{0.0, 0.0, 0.0, INFINITY};
+    double level = 0.0;
+};
+
+class FieldBatches : public RayBatches {
+  public:
+    /// Refers to its arguments. `tape`: empty where the scene has no tree. `rays`: nullptr where it has no
+    /// field. `most`: rays at once.
+    FieldBatches(const sdf::FieldScene& scene, const sdf::Tape& tape, const FieldShaders& shaders,
+                 const sdf::TraceSettings& settings, FieldRays* rays, const FieldSphere& around,
+                 std::size_t most, std::function<bool()> cancelled);
+
+    /// Where a ray's sign is 0, the field's where it begins counts. Neighbours of 64 should be near each
+    /// other.
+    std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override;
+    std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override;
+
+  private:
+    /// What is asked of the device, and what the host knows already.
+    struct Question {
+        sdf::SurfaceHit closed;
+        double t_end = 0.0;  ///< backwards: where the ray begins
+        bool backwards = false;
+    };
+    GpuRay ask(const sdf::TravellingRay& ray, Question& question) const;
+    double lastT(const GpuRay& ray, double t_max) const;
+    FieldAnswers traceField(const std::vector<GpuRay>& rays, bool with_hits);
+    void nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits);
+    void occludedPart(std::span<const sdf::TravellingRay> rays, std::span<char> hidden);
+    sdf::SurfaceHit answer(const sdf::TravellingRay& ray, const Question& question, const GpuRayState& state,
+                           const GpuHit& hit) const;
+    void describe(std::span<sdf::SurfaceHit> hits) const;
+
+    const sdf::FieldScene& scene_;
+    const sdf::Tape& tape_;
+    const FieldShaders& shaders_;
+    const sdf::TraceSettings& settings_;
+    FieldRays* rays_;
+    FieldSphere around_;
+    glm::dvec4 lists_;
+    std::size_t most_;
+    std::function<bool()> cancelled_;
+    sdf::SceneTracer closed_;
+};
+
+}  // namespace edgewise::vulkan

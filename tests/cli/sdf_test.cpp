@@ -1,0 +1,140 @@
+// SDF scenes as users and scripts meet them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/cli/read_picture.h"
+#include "tests/cli/run_program.h"
+
+namespace edgewise::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A white ball of a little less than half the picture's height, on a grey sky; the file's own camera and
+/// light.
+constexpr const char* kBall = R"({
+ "background": [0.25, 0.25, 0.25],
+ "cameras": [{"eye": [0, 0, 10], "target": [0, 0, 0], "type": "orthographic", "ymag": 2}],
+ "materials": {"white": {"color": [1, 1, 1], "shading": "unlit"}},
+ "tree": {"type": "sphere", "radius": 0.95, "material": "white"}
+})";
+
+ProgramRun inFolder(const TemporaryFolder& folder, const Arguments& arguments) {
+    writeFile(folder / "ball.sdf.json", kBall);
+    return runProgram(arguments, folder.path());
+}
+
+TEST(SdfCommand, RendersWithEveryMethodAndAllChannels) {
+    for (const std::string method : {"none", "sphere:relax=balint,discontinuity=3", "ssaa:2", "smaa", "fxaa",
+                                     "lottes:grain=0", "path:4"}) {
+        const TemporaryFolder folder;
+        const ProgramRun run =
+            inFolder(folder, {"render", "ball.sdf.json", "-o", "a.exr", "--size", "32x32", "--filter", "box",
+                              "--method", method, "--aov", "depth", "--aov", "index", "--device", "cpu"});
+        ASSERT_EQ(run.status, 0) << method << run.err;
+        const Picture picture = readPicture(folder / "a.exr");
+        const int edge = picture.spec.channelindex("edge"), depth = picture.spec.channelindex("Z");
+        ASSERT_GE(edge, 0) << method;
+        ASSERT_GE(depth, 0) << method;
+        EXPECT_NEAR(picture.at(16, 16)[0], 1.0, 1e-6) << method;
+        EXPECT_NEAR(picture.at(1, 1)[0], 0.25, 1e-6) << method;
+        EXPECT_EQ(picture.at(16, 16)[edge], 0.0f) << method;
+        EXPECT_EQ(picture.at(1, 1)[edge], 0.0f) << method;
+        EXPECT_EQ(picture.at(16, 8)[edge], 1.0f) << method << ": the outline, at 8.4";
+        EXPECT_NEAR(picture.at(16, 16)[depth], 9.05, 0.02) << method;
+    }
+}
+
+TEST(SdfCommand, WhatNeedsTrianglesNamesWhatWorks) {
+    for (const char* method : {"nsaa", "msaa:4", "csaa:32"}) {
+        const TemporaryFolder folder;
+        const ProgramRun run =
+            inFolder(folder, {"render", "ball.sdf.json", "-o", "a.exr", "--method", method});
+        EXPECT_EQ(run.status, 2);
+        ASSERT_EQ(lines(run.err).size(), 1u) << run.err;
+        EXPECT_NE(run.err.find("needs triangles"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("--method none or ssaa:4 traces the field"), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(folder / "a.exr"));
+    }
+}
+
+TEST(SdfCommand, RefusesChannelsThatCountTriangles) {
+    for (const char* method : {"none", "lottes", "path:1"}) {
+        const TemporaryFolder folder;
+        const ProgramRun run = inFolder(folder, {"render", "ball.sdf.json", "-o", "a.exr", "--size", "16x16",
+                                                 "--method", method, "--aov", "cryptomatte"});
+        EXPECT_EQ(run.status, 2) << method;
+        ASSERT_EQ(lines(run.err).size(), 1u) << run.err;
+        EXPECT_NE(run.err.find("--aov cryptomatte"), std::string::npos) << run.err;
+    }
+}
+
+TEST(SdfCommand, DumpsStagesAndExplains) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        inFolder(folder, {"render", "ball.sdf.json", "-o", "a.exr", "--size", "24x16", "--method", "sphere",
+                          "--dump-stages", "stages", "--explain", "--device", "cpu"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    for (const char* name : {"evaluations.png", "iterations.png", "residual.png"}) {
+        const Picture picture = readPicture(folder / ("stages/" + std::string(name)));
+        EXPECT_EQ(picture.spec.width, 24) << name;
+        EXPECT_EQ(picture.spec.height, 16) << name;
+    }
+    EXPECT_EQ(lines(readFile(folder / "stages/field.csv")).size(), 1u + 24 * 16);
+    EXPECT_NE((run.out + run.err).find("prune"), std::string::npos);
+}
+
+TEST(SdfCommand, MethodsListTheirParametersAndRanges) {
+    const ProgramRun run = runProgram({"methods"});
+    for (const char* words :
+         {"relax=none|keinert|balint|auto", "omega=1..2", "discontinuity=0..64", "candidate=last|screen",
+          "prepass=on|off", "level-set=on|off", "lottes:", "grain=0..1", "path:1..65536"})
+        EXPECT_NE(run.out.find(words), std::string::npos) << words;
+}
+
+TEST(SdfCommand, ComparesAgainstSsaa16) {
+    const TemporaryFolder folder;
+    Arguments arguments{"compare", "ball.sdf.json", "-o", "out",      "--size",
+                        "24x16",   "--runs",        "1",  "--device", "cpu"};
+    for (const char* method : {"none", "sphere", "ssaa:2", "smaa", "fxaa", "lottes", "path:4"})
+        arguments.insert(arguments.end(), {"--method", method});
+    const ProgramRun run = inFolder(folder, arguments);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = json::parse(readFile(folder / "out/results.json"));
+    EXPECT_EQ(results.at("reference"), "ssaa:16");
+    ASSERT_EQ(results.at("rows").size(), 7u);
+    double one = 0.0, four = 0.0;
+    for (const json& row : results.at("rows")) {
+        EXPECT_EQ(row.at("status"), "ok") << row;
+        EXPECT_TRUE(row.at("error").at("edge_rmse").is_number()) << row;
+        EXPECT_GE(row.at("error").at("edge_rmse"), row.at("error").at("rmse")) << "errors lie on edges";
+        if (row.at("method") == "none") one = row.at("error").at("rmse");
+        if (row.at("method") == "ssaa:2") four = row.at("error").at("rmse");
+    }
+    EXPECT_LT(four, 0.5 * one);
+    EXPECT_GT(four, 0.0);
+    EXPECT_TRUE(fs::exists(folder / "out/report.html"));
+}
+
+TEST(SdfCommand, StudiesToo) {
+    const TemporaryFolder folder;
+    fs::copy_file(fs::path(EDGEWISE_TEST_DATA) / "degenerate/piercing.gltf", folder / "triangles.gltf");
+    writeFile(folder / "study.toml",
+              "scenes = ['ball.sdf.json', 'triangles.gltf']\nmethods = ['none', 'ssaa:2']\n"
+              "filters = ['box']\nsizes = ['16x16']\nruns = 1\ndevice = 'cpu'\n");
+    const ProgramRun run = inFolder(folder, {"sweep", "study.toml", "-o", "out"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = json::parse(readFile(folder / "out/results.json"));
+    ASSERT_EQ(results.at("rows").size(), 4u);
+    for (const json& row : results.at("rows")) {
+        EXPECT_EQ(row.at("status"), "ok");
+        EXPECT_EQ(row.at("reference"), row.at("scene") == "ball.sdf.json" ? "ssaa:16" : "nsaa,device=cpu");
+    }
+}
+
+}  // namespace
+}  // namespace edgewise::test
