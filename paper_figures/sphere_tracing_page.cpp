@@ -69,9 +69,11 @@ std::string candidatesTable(const SphereTracing& found) {
     for (const CandidateCount& c : found.candidates)
         rows += fmt::format(
             "<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            escapedHtml(c.scene), c.steps, c.pixels, c.last.wrong, c.last.holes, c.screen.wrong, c.screen.holes);
+            escapedHtml(c.scene), c.steps, c.pixels, c.last.wrong, c.last.holes, c.screen.wrong,
+            c.screen.holes);
     return table(
-        "<th>scene</th><th></th><th>pixels</th><th>last point: wrong surface</th><th>holes</th><th>screen-space "
+        "<th>scene</th><th></th><th>pixels</th><th>last point: wrong "
+        "surface</th><th>holes</th><th>screen-space "
         "candidate: wrong surface</th><th>holes</th>",
         rows);
 }

@@ -5,8 +5,8 @@
 
 namespace edgewise::sdf {
 
-#define EDGEWISE_DECLARE_VALUES(isa)                                                                         \
-    namespace isa {                                                                                          \
+#define EDGEWISE_DECLARE_VALUES(isa)                                   \
+    namespace isa {                                                    \
     void laneValues(const TapeView&, const LanePoints&, double*);      \
     void laneWinners(const TapeView&, const LaneBalls&, PairWinners*); \
     }

@@ -61,9 +61,8 @@ EDGEWISE_FN void step(const Instruction& i, const double* numbers, Slots<R>& s) 
 template <class R>
 inline R run(const TapeView& tape, const Vec3<R>& p, Slots<R>& slots) {
     slots.position[0] = p;
-    tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
-        step(i, code, tape.numbers + i.numbers, slots);
-    });
+    tape.forEach([&](const Instruction& i, Code code)
+                     __attribute__((always_inline)) { step(i, code, tape.numbers + i.numbers, slots); });
     return slots.value[0];
 }
 

@@ -10,8 +10,8 @@
 
 namespace edgewise::sdf {
 
-/// The settings without what rests on the field's bound, where the scene says that it does not hold: relaxation, cones
-/// before rays, shorter tapes.
+/// The settings without what rests on the field's bound, where the scene says that it does not hold:
+/// relaxation, cones before rays, shorter tapes.
 TraceSettings trustedSettings(const FieldScene& scene, TraceSettings settings);
 
 /// Refers to the scene and the tape, which outlive it. From many threads at once.

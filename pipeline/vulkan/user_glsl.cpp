@@ -215,11 +215,12 @@ class Preparation {
         rewriteDeclared(type, part.last, storage);
     }
 
-    /// From a declaration's type on: what has no value gets one. WebGL starts all with 0; what a device leaves
-    /// undefined may make anything of the whole expression.
+    /// From a declaration's type on: what has no value gets one. WebGL starts all with 0; what a device
+    /// leaves undefined may make anything of the whole expression.
     void rewriteDeclared(std::size_t type, std::size_t last, bool input) {
         int brackets = 0;
-        const std::size_t behind_type = tokens_[type + 1].text == "[" ? afterClosing(tokens_, type + 1) : type + 1;
+        const std::size_t behind_type =
+            tokens_[type + 1].text == "[" ? afterClosing(tokens_, type + 1) : type + 1;
         for (std::size_t k = behind_type; k + 1 < last; ++k) {
             const char c = tokens_[k].text[0];
             brackets += (c == '(' || c == '{' || c == '[') - (c == ')' || c == '}' || c == ']');
@@ -234,11 +235,13 @@ class Preparation {
             startWith(k, type, after, behind_type, input);
         }
     }
-    void startWith(std::size_t name, std::size_t type, std::size_t after, std::size_t behind_type, bool input) {
+    void startWith(std::size_t name, std::size_t type, std::size_t after, std::size_t behind_type,
+                   bool input) {
         const std::string_view word = tokens_[type].text;
         const bool array_name = after > name + 1, array_type = behind_type > type + 1;
         if (!array_name && !array_type) {
-            const std::string value = input ? inputValue(tokens_[name].text, word) : fmt::format("{}(0)", word);
+            const std::string value =
+                input ? inputValue(tokens_[name].text, word) : fmt::format("{}(0)", word);
             edits_.insert(tokens_[name].end(), " = " + value);
             return;
         }
@@ -357,7 +360,8 @@ int lineOf(const std::string& shader, std::string_view name) {
     const std::string_view why = error.what();
     const std::size_t mark = why.find(kMark);
     if (why.find("Recursion") == why.npos || mark == why.npos) failAt(file, error);
-    const std::string_view callee = why.substr(mark + kMark.size()), name = callee.substr(0, callee.find('('));
+    const std::string_view callee = why.substr(mark + kMark.size()),
+                           name = callee.substr(0, callee.find('('));
     failAt(file, lineOf(shader, name), fmt::format("{} calls itself, which GLSL does not allow", name));
 }
 
