@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf/load_sdf.h"
 #include "tests/fuzz/mutate_json.h"
 #include "tests/fuzz/sdf_from_bytes.h"
 
@@ -36,6 +37,15 @@ TEST(SdfFuzzReplay, EverySeedAndItsTruncationsHold) {
         EXPECT_EQ(checkSdf(bytes), "") << name;
         for (std::size_t length = 0; length < bytes.size(); length += 11)
             EXPECT_EQ(checkSdf(std::span(bytes).first(length)), "") << name << " cut to " << length;
+    }
+}
+
+/// What the fuzzers start from; what they find is named sdf_found_* or map_found_*.
+TEST(SdfFuzzReplay, TheFeaturesLoad) {
+    for (const auto& [name, bytes] : seeds("sdf_")) {
+        if (name.starts_with("sdf_found_")) continue;
+        const std::string text(bytes.begin(), bytes.end());
+        EXPECT_NO_THROW(EXPECT_FALSE(sdf::loadSdf(text).tree.empty())) << name;
     }
 }
 
