@@ -11,8 +11,8 @@ namespace edgewise::sdf {
 /// Bytes of such a text; more is refused.
 inline constexpr std::size_t kMostMapBytes = std::size_t(1) << 20;
 
-/// The header is the comments, blank lines, directives and `precision` statements at the top. Of its `//` lines these are read, each any number
-/// of times where it says so:
+/// The header is the comments, blank lines, directives and `precision` statements at the top. Of its `//`
+/// lines these are read, each any number of times where it says so:
 ///     // camera: eye X Y Z target X Y Z fovy DEGREES    (fovy may be left out)     any number
 ///     // light: direction X Y Z                         the way the light travels  any number
 ///     // background: R G B        // far: T        // lipschitz: L                 once

@@ -13,8 +13,8 @@ struct HeaderLine {
     std::string_view key, words;
 };
 
-/// The `//` lines with a key among the comments, blank lines, directives (#version) and `precision` statements
-/// at the top of a text.
+/// The `//` lines with a key among the comments, blank lines, directives (#version) and `precision`
+/// statements at the top of a text.
 std::vector<HeaderLine> headerLines(std::string_view text);
 
 /// The text with every comment as one blank, its line ends kept.

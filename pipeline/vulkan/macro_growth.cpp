@@ -28,7 +28,8 @@ struct Growth {
     void raise(const Growth& other) {
         constant = std::max(constant, other.constant);
         if (factor.size() < other.factor.size()) factor.resize(other.factor.size());
-        for (std::size_t i = 0; i < other.factor.size(); ++i) factor[i] = std::max(factor[i], other.factor[i]);
+        for (std::size_t i = 0; i < other.factor.size(); ++i)
+            factor[i] = std::max(factor[i], other.factor[i]);
     }
 };
 
@@ -223,9 +224,10 @@ void requireShortExpansion(const std::string& text) {
         words += expansion.words(statement);
         statement.clear();
         if (words > static_cast<double>(kMostGlslWords))
-            throw GlslError(0, line, fmt::format("with its macros replaced the text has more than {} words "
-                                                 "and signs",
-                                                 kMostGlslWords));
+            throw GlslError(0, line,
+                            fmt::format("with its macros replaced the text has more than {} words "
+                                        "and signs",
+                                        kMostGlslWords));
     };
     for (const Line& line : lines) {
         if (isDirective(line, "define")) continue;

@@ -73,7 +73,8 @@ class Calls {
             // A member of that name, or a function of the user's.
             const bool member = i > 0 && tokens_[i - 1].text == ".";
             if (!tokens_[i].word || member || callees_.contains(tokens_[i].text)) continue;
-            const std::string_view why = whyNotInMaps(tokens_[i].text, i + 1 < part.last && tokens_[i + 1].text == "(");
+            const std::string_view why =
+                whyNotInMaps(tokens_[i].text, i + 1 < part.last && tokens_[i + 1].text == "(");
             if (!why.empty()) return {i, why};
         }
         return {0, {}};

@@ -23,14 +23,16 @@ struct UserGlsl {
     /// constants), then the text, preprocessed, with every loop's condition counted by
     ///     bool ew_turn(uint line)    false: the budget is spent
     /// Entry points (main, mainImage), what only they call, and functions with textures that the map does not
-    /// call are left out; uniforms and varyings of other names are 0. Lines are the file's, whatever #line says.
+    /// call are left out; uniforms and varyings of other names are 0. Lines are the file's, whatever #line
+    /// says.
     std::string text;
     bool has_albedo = false;
     bool has_loops = false;
 };
 
 /// Throws InputError "FILE: line N: ..." for what does not preprocess or is beyond the limits of
-/// macro_growth.h, for textures and the like in what the map calls, and for a text without `float map(vec3 p)`.
+/// macro_growth.h, for textures and the like in what the map calls, and for a text without `float map(vec3
+/// p)`.
 UserGlsl prepareUserGlsl(const sdf::GlslMap& map, int width, int height);
 
 /// compileGlsl of a shader that holds the user's text: an error there is an InputError with its line. Throws

@@ -65,8 +65,7 @@ bool isDeclaredElsewhere(const Tokens& tokens, const GlslPart& part, std::string
 }
 
 std::string functionOf(const Table& table) {
-    std::string text =
-        fmt::format(" {0} ew_at_{1}(int i) {{ {0} value = {1}[0];", table.type, table.name);
+    std::string text = fmt::format(" {0} ew_at_{1}(int i) {{ {0} value = {1}[0];", table.type, table.name);
     for (std::size_t i = 1; i < table.entries; ++i)
         text += fmt::format(" value = i == {1} ? {0}[{1}] : value;", table.name, i);
     return text + " return value; }";

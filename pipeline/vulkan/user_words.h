@@ -5,8 +5,8 @@
 
 namespace edgewise::vulkan {
 
-/// A word of desktop GLSL's own, or one that it keeps for later: in GLSL ES, or in one of its versions, a free
-/// name.
+/// A word of desktop GLSL's own, or one that it keeps for later: in GLSL ES, or in one of its versions, a
+/// free name.
 bool isFreeNameInEs(std::string_view word);
 
 /// A function that desktop GLSL has and GLSL ES 1.00 lacks: people define their own.
