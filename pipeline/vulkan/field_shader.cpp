@@ -134,11 +134,15 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
         head += "#define fieldAt ew_map\nfloat map(vec3 p);\nfloat fieldAt(vec3 p) { return map(p); }\n";
     else
         head += made.field.text;
-    head += made.user_albedo
-                ? "vec3 albedo(vec3 p, vec3 n);\n"
-                  "vec3 ew_albedoAt(vec3 p, vec3 n) { ew_user_turns = 0u; return albedo(p, n); }\n"
-                  "#define EW_ALBEDO(p, n) ew_albedoAt(p, n)\n"
-                : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
+    head += made.user_albedo ? "vec3 albedo(vec3 p, vec3 n);\n"
+                               "vec3 ew_albedoAt(vec3 p, vec3 n) {\n"
+                               "    ew_user_turns = 0u;\n"
+                               "    vec3 color = albedo(p, n);\n"
+                               "    if (ew_stuck_line != 0u) ew_flags[4] = ew_stuck_line;\n"
+                               "    return color;\n"
+                               "}\n"
+                               "#define EW_ALBEDO(p, n) ew_albedoAt(p, n)\n"
+                             : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
     head += kField_field;
     made.file = scene.glsl ? scene.glsl->file : scene.source;
     const auto compile = [&](std::string_view body) {

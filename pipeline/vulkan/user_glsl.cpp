@@ -110,7 +110,7 @@ class Preparation {
             const std::string_view word = tokens_[i].text;
             if (word == ",")
                 at_type = true;
-            else if (at_type && !kQualifiers.contains(word))
+            else if (word == "[" || (at_type && !kQualifiers.contains(word)))
                 types.push_back(word), at_type = false;
         }
         return types;
@@ -345,24 +345,33 @@ UserGlsl prepareUserGlsl(const sdf::GlslMap& map, int width, int height) {
 
 namespace {
 
-/// The line where the last function of that name begins.
-int lineOf(const std::string& shader, std::string_view name) {
+/// The line where the last function of that name begins; of the last declaration without a body.
+int lineOf(const std::string& shader, std::string_view name, bool with_body) {
     const Tokens tokens = glslTokens(shader);
     int line = 0;
     for (const GlslPart& part : glslParts(tokens))
-        if (part.is_function && part.name == name) line = tokens[part.first].line;
+        if (part.is_function == with_body && part.name == name) line = tokens[part.first].line;
     return line;
 }
 
 /// What is found when all is linked has no place; our own text is not recursive.
 [[noreturn]] void failLinking(const std::string& shader, const std::string& file, const GlslError& error) {
-    constexpr std::string_view kMark = " calling ";  // "... Recursion detected: f(vf3; calling g(vf3;"
+    // "... Recursion detected: f(vf3; calling g(vf3;", "... No function definition (body) found: f(vf3;"
     const std::string_view why = error.what();
-    const std::size_t mark = why.find(kMark);
-    if (why.find("Recursion") == why.npos || mark == why.npos) failAt(file, error);
-    const std::string_view callee = why.substr(mark + kMark.size()),
-                           name = callee.substr(0, callee.find('('));
-    failAt(file, lineOf(shader, name), fmt::format("{} calls itself, which GLSL does not allow", name));
+    const auto nameBehind = [&](std::string_view mark) {
+        const std::size_t at = why.find(mark);
+        if (at == why.npos) return std::string_view();
+        const std::string_view rest =
+            why.substr(std::min(why.find_first_not_of(' ', at + mark.size()), why.size()));
+        return rest.substr(0, rest.find('('));
+    };
+    if (const auto name = nameBehind(" calling "); !name.empty())
+        failAt(file, lineOf(shader, name, true),
+               fmt::format("{} calls itself, which GLSL does not allow", name));
+    if (const auto name = nameBehind("(body) found:"); !name.empty())
+        failAt(file, lineOf(shader, name, false),
+               fmt::format("{} is declared and called, and has no body", name));
+    failAt(file, error);
 }
 
 void requireCheap(const std::vector<std::uint32_t>& spirv, const std::string& file) {

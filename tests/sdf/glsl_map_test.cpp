@@ -43,6 +43,17 @@ TEST(GlslMap, NeedsNoHeader) {
     EXPECT_TRUE(scene.cameras.empty());
 }
 
+TEST(GlslMap, HeaderStandsAmongDirectivesAndBlocks) {
+    const FieldScene scene = loadGlslMap(
+        "\xEF\xBB\xBF#version 300 es\nprecision highp float;\n/* a */ /* b\n c */ // far: 7\r" + kMap, "a");
+    EXPECT_EQ(scene.far, 7.0);
+    EXPECT_EQ(scene.glsl->text[0], '#');
+    EXPECT_EQ(refusal("float" + std::string(1000000, ' ') + "map (vec3 p);"), "taken");
+    EXPECT_EQ(refusal("// float \\\nfloat map(vec3 p);"), "the file: defines no function float map(vec3 p)");
+    EXPECT_EQ(refusal("afloat map(vec3 p); float mapp(vec3 p); float\nmap;"),
+              "the file: defines no function float map(vec3 p)");
+}
+
 TEST(GlslMap, RefusesWithTheLine) {
     EXPECT_EQ(refusal("\n// far: x\n" + kMap), "line 2: far: 'x' is not a number from -1000000 to 1000000");
     EXPECT_EQ(refusal("// far: nan\n" + kMap), "line 1: far: 'nan' is not a number from -1000000 to 1000000");

@@ -215,10 +215,22 @@ TEST_F(UserMap, FaultsNameTheFilesLineAndTheRule) {
                       "float map(vec3 p) { return f(p); }")
                   .substr(22),
               "calls itself, which GLSL does not allow");
+    EXPECT_EQ(refusal("\nfloat f(vec3 p);\nfloat map(vec3 p) { return f(p); }"),
+              "a.map.glsl: line 2: f is declared and called, and has no body");
+    EXPECT_EQ(refusal("float map(vec3 p[2]) { return 1.; }"),
+              "a.map.glsl: line 1: map is not `float map(vec3 p)`");
     EXPECT_EQ(refusal("#line 500 7\nfloat map(vec3 p) {\n return q; }"),
               "a.map.glsl: line 3: 'q' : undeclared identifier");
     EXPECT_EQ(refusal("// a \\\nfloat b;\n#define A(x) \\\n  (x)\nfloat map(vec3 p) {\n return A(1.) +; }"),
               "a.map.glsl: line 6: syntax error, unexpected SEMICOLON");
+}
+
+TEST_F(UserMap, LoopsOfColoursAreCountedToo) {
+    EXPECT_NE(
+        refusal("float map(vec3 p) { return length(p) - 1.; }\nvec3 albedo(vec3 p, vec3 n) {\n for (;;);\n "
+                "return n; }")
+            .find("line 3: a loop without end"),
+        std::string::npos);
 }
 
 TEST_F(UserMap, WhatGrowsWithoutEndIsALimit) {
