@@ -11,8 +11,10 @@ struct ConeSettings {
     bool uniform = false;        ///< every sample weighs alike (Figure 5)
     bool backtrace = true;       ///< section 3.6
     int visible = 32;            ///< tracing may end once so many bits of the mask are set
-    bool normalize_sky = false;  ///< as printed: divided by the samples' weights; else the sky is the last sample
-    bool shade_at_once = false;  ///< within the loop, as printed; else when it has ended. The picture is the same
+    bool normalize_sky =
+        false;  ///< as printed: divided by the samples' weights; else the sky is the last sample
+    bool shade_at_once =
+        false;  ///< within the loop, as printed; else when it has ended. The picture is the same
 };
 
 }  // namespace edgewise::sdf

@@ -51,8 +51,8 @@ void ConeTrace::keepGroup() {
 std::uint32_t groupMask(const ConeGroup& group, const glm::dvec3& normal_world, const glm::dvec3& right_world,
                         const glm::dvec3& down_world, const ConeSettings& settings) {
     if (settings.relaxed && group.hard) return ~0u;
-    return cones::planeMask(glm::dot(normal_world, right_world), glm::dot(normal_world, down_world), group.least,
-                            settings.four_by_eight);
+    return cones::planeMask(glm::dot(normal_world, right_world), glm::dot(normal_world, down_world),
+                            group.least, settings.four_by_eight);
 }
 
 bool ConeBlend::open() const {

@@ -13,9 +13,10 @@
 namespace edgewise::sdf {
 
 struct ConeGroup {
-    double t = 0.0;      ///< where it is shaded
-    double least = 1.0;  ///< the least distance met, in radii of the cone: the greatest occlusion is (1 - least) / 2
-    bool hard = false;   ///< the ray itself meets the surface
+    double t = 0.0;  ///< where it is shaded
+    double least =
+        1.0;  ///< the least distance met, in radii of the cone: the greatest occlusion is (1 - least) / 2
+    bool hard = false;  ///< the ray itself meets the surface
 };
 
 struct ConeHits {
@@ -46,11 +47,12 @@ class ConeTrace {
     std::uint32_t most_steps_;
 };
 
-/// The cone's rules for a ray: its radius is sqrt(2) times the pixel's (equation 3 as notes on it read it) times the coverage.
+/// The cone's rules for a ray: its radius is sqrt(2) times the pixel's (equation 3 as notes on it read it)
+/// times the coverage.
 cones::ConeRules coneRules(const FieldRay& ray, const TraceSettings& trace, const ConeSettings& settings);
 
-/// A group's bits: of a plane through its sample, `normal_world` unit, seen along a ray with these unit axes across it, x
-/// to the right and y down.
+/// A group's bits: of a plane through its sample, `normal_world` unit, seen along a ray with these unit axes
+/// across it, x to the right and y down.
 std::uint32_t groupMask(const ConeGroup& group, const glm::dvec3& normal_world, const glm::dvec3& right_world,
                         const glm::dvec3& down_world, const ConeSettings& settings);
 

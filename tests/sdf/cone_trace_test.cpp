@@ -22,7 +22,8 @@ FieldRay rayAt(double x, double y) {
     return ray;
 }
 
-ConeHits traced(const std::function<double(glm::dvec3)>& field, const FieldRay& ray, const ConeSettings& settings) {
+ConeHits traced(const std::function<double(glm::dvec3)>& field, const FieldRay& ray,
+                const ConeSettings& settings) {
     ConeTrace trace(ray, {}, settings);
     while (trace.asks()) trace.take(field(ray.origin_world + ray.direction_world * trace.askedAt()));
     return trace.hits();
@@ -73,8 +74,7 @@ TEST(ConeTrace, AStraightEdgeCoversItsPartOfTheCone) {
     int hard = 0, soft = 0;
     for (double edge = -1.2; edge <= 1.2; edge += 0.01) {
         const ConeSettings settings;
-        const ConeHits hits =
-            traced([&](glm::dvec3 p) { return wall(p, edge); }, rayAt(0.0, 0.0), settings);
+        const ConeHits hits = traced([&](glm::dvec3 p) { return wall(p, edge); }, rayAt(0.0, 0.0), settings);
         double share = 0.0;
         if (hits.count > 0) {
             ASSERT_EQ(hits.count, 1) << edge;
@@ -87,11 +87,13 @@ TEST(ConeTrace, AStraightEdgeCoversItsPartOfTheCone) {
     std::printf("%d hard, %d soft, share off by at most %.3f\n", hard, soft, worst);
     EXPECT_GT(soft, 50);
     EXPECT_GT(hard, 50);
-    EXPECT_LE(worst, 0.5 * 6.0 / 32.0 + 1.0 / 32.0);  // half a column of the mask, and the points' uneven share of a disk
+    EXPECT_LE(worst, 0.5 * 6.0 / 32.0 +
+                         1.0 / 32.0);  // half a column of the mask, and the points' uneven share of a disk
 }
 
 TEST(ConeTrace, GroupsAreInOrderAndTheirBitsDisjoint) {
-    // A near wall on the left, a far one on the right: together they hide the sky but for their mask's rounding.
+    // A near wall on the left, a far one on the right: together they hide the sky but for their mask's
+    // rounding.
     const auto field = [](glm::dvec3 p) {
         return std::min(wall(p, 0.0), wall(glm::dvec3(-p.x, p.y, p.z + 10.0), 0.0));
     };
@@ -141,7 +143,8 @@ TEST(ConeTrace, BacktracingIsNoLaterThanTheHit) {
     double off_with = 0.0, off_without = 0.0;
     for (int i = 0; i < 500; ++i) {
         // A slanted plane in front of the eye, met by the ray at t.
-        const glm::dvec3 normal = glm::normalize(glm::dvec3(number(random), number(random), 1.0 + number(random)));
+        const glm::dvec3 normal =
+            glm::normalize(glm::dvec3(number(random), number(random), 1.0 + number(random)));
         if (normal.z < 0.2) continue;
         const auto field = [&](glm::dvec3 p) { return glm::dot(p, normal); };
         const FieldRay ray = rayAt(0, 0);
@@ -150,7 +153,8 @@ TEST(ConeTrace, BacktracingIsNoLaterThanTheHit) {
         settings.backtrace = false;
         const double without = traced(field, ray, settings).groups[0].t;
         EXPECT_LE(with, 10.0 + 1e-12);
-        off_with = std::max(off_with, std::abs(with - 10.0)), off_without = std::max(off_without, std::abs(without - 10.0));
+        off_with = std::max(off_with, std::abs(with - 10.0)),
+        off_without = std::max(off_without, std::abs(without - 10.0));
     }
     std::printf("off by %.3f with backtracing, %.3f without\n", off_with, off_without);
     EXPECT_LT(off_with, 1.0);
