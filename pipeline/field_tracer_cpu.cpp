@@ -174,9 +174,10 @@ class CpuFieldTracer : public FieldTracer {
         counts["instructions"] = counts_.instructions, counts["tape_passes"] = counts_.passes;
         counts["tiles"] = counts_.leaf_tiles + counts_.empty_tiles;
         counts["tiles_empty"] = counts_.empty_tiles;
-        counts["pruned_tapes"] = tracer_.cells().counts().tapes;
-        counts["prune_instructions"] = tracer_.cells().counts().instructions;
-        counts["prune_microseconds"] = static_cast<std::uint64_t>(tracer_.cells().counts().seconds * 1e6);
+        counts["pruned_tapes"] = counts_.prune.tapes;
+        counts["prune_instructions"] = counts_.prune.instructions;
+        counts["prune_microseconds"] = static_cast<std::uint64_t>(counts_.prune.seconds * 1e6);
+        counts["secondary_tapes"] = tracer_.cells().counts().tapes - counts_.prune.tapes;
         counts["shadow_rays"] = ray_counts_.shadow, counts["reflection_rays"] = ray_counts_.reflection;
         counts["refraction_rays"] = ray_counts_.refraction;
         counts["secondary_evaluations"] = ray_counts_.evaluations;
