@@ -187,7 +187,8 @@ class CpuFieldTracer : public FieldTracer {
         const sdf::TraceSettings& t = settings_.trace;
         const bool field = tape_.size() > 0;
         result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
-        result.plan.push_back({"prune", t.prune && field, pruneWords(field)});
+        const bool prunes = t.prune && scene_.bound_holds && tape_.size() >= sdf::kShortTape;
+        result.plan.push_back({"prune", prunes, pruneWords(field)});
         const bool convex = t.convex && scene_.convex.has_value();
         result.plan.push_back({"convex", convex,
                                convex          ? "rays are traced within the scene's convex bound alone"
@@ -206,6 +207,9 @@ class CpuFieldTracer : public FieldTracer {
     std::string pruneWords(bool field) const {
         if (!field) return "the scene has no field";
         if (!settings_.trace.prune) return "switched off";
+        if (!scene_.bound_holds) return "the field's bound does not hold";
+        if (tape_.size() < sdf::kShortTape)
+            return fmt::format("{} instructions are too few to be worth it", tape_.size());
         const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
         return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
                            asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,

@@ -10,6 +10,10 @@
 
 namespace edgewise::sdf {
 
+/// A whole tape shorter than this is left as it is: on primary rays shortening 18 instructions costs 13 % of
+/// the time, 42 gain 19 %.
+inline constexpr std::size_t kShortTape = 32;
+
 struct PruneCounts {
     std::uint64_t tapes = 0;         ///< made
     std::uint64_t instructions = 0;  ///< run to make them, as if for one at a time
