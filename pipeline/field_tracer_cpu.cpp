@@ -176,9 +176,10 @@ class CpuFieldTracer : public FieldTracer {
         counts["instructions"] = counts_.instructions, counts["tape_passes"] = counts_.passes;
         counts["tiles"] = counts_.leaf_tiles + counts_.empty_tiles;
         counts["tiles_empty"] = counts_.empty_tiles;
-        counts["pruned_tapes"] = tracer_.cells().counts().tapes;
-        counts["prune_instructions"] = tracer_.cells().counts().instructions;
-        counts["prune_microseconds"] = static_cast<std::uint64_t>(tracer_.cells().counts().seconds * 1e6);
+        counts["pruned_tapes"] = counts_.prune.tapes;
+        counts["prune_instructions"] = counts_.prune.instructions;
+        counts["prune_microseconds"] = static_cast<std::uint64_t>(counts_.prune.seconds * 1e6);
+        counts["secondary_tapes"] = tracer_.cells().counts().tapes - counts_.prune.tapes;
         counts["shadow_rays"] = ray_counts_.shadow, counts["reflection_rays"] = ray_counts_.reflection;
         counts["refraction_rays"] = ray_counts_.refraction;
         counts["secondary_evaluations"] = ray_counts_.evaluations;
@@ -188,7 +189,8 @@ class CpuFieldTracer : public FieldTracer {
         const sdf::TraceSettings& t = settings_;
         const bool field = tape_.size() > 0;
         result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
-        result.plan.push_back({"prune", t.prune && field, pruneWords(field)});
+        const bool prunes = t.prune && scene_.bound_holds && tape_.size() >= sdf::kShortTape;
+        result.plan.push_back({"prune", prunes, pruneWords(field)});
         const bool convex = t.convex && scene_.convex.has_value();
         result.plan.push_back({"convex", convex,
                                convex          ? "rays are traced within the scene's convex bound alone"
@@ -209,6 +211,8 @@ class CpuFieldTracer : public FieldTracer {
         if (!field) return "the scene has no field";
         if (!scene_.bound_holds) return kNoBound;
         if (!settings_.prune) return "switched off";
+        if (tape_.size() < sdf::kShortTape)
+            return fmt::format("{} instructions are too few to be worth it", tape_.size());
         const double asked = static_cast<double>(counts_.evaluations + counts_.cone_evaluations);
         return fmt::format("of {} instructions an evaluation runs {:.1f}; {} tapes were made", tape_.size(),
                            asked > 0.0 ? static_cast<double>(counts_.instructions) / asked : 0.0,

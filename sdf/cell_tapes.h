@@ -10,6 +10,10 @@
 
 namespace edgewise::sdf {
 
+/// A whole tape shorter than this is left as it is: on primary rays shortening 18 instructions costs 13 % of
+/// the time, 42 gain 19 %.
+inline constexpr std::size_t kShortTape = 32;
+
 struct PruneCounts {
     std::uint64_t tapes = 0;         ///< made
     std::uint64_t instructions = 0;  ///< run to make them, as if for one at a time
@@ -37,7 +41,7 @@ struct TapeCell {
 
 /// A cell is cut in eight once its tape has been run about as often as making theirs costs, so that at most
 /// about as much time goes into tapes as into running them; twice as often for each level that has not
-/// helped.
+/// helped. One that is many rays wide is cut at once: its neighbours in the picture will ask there too.
 class CellTapes {
   public:
     /// Refers to the tape. Outside the cube, and without `prune`, the whole tape is used.
@@ -48,7 +52,11 @@ class CellTapes {
 
     /// The smallest cell at the point. `near`: one that may hold it, or be close.
     const TapeCell& at(const glm::dvec3& p_world, const TapeCell* near = nullptr) const;
-    /// Tells that a cell's tape is run so often. What is made is added to the counts.
+    /// The same for a ray or cone of that radius there: wide cells are cut at once. What is made is added to
+    /// the counts.
+    const TapeCell& at(const glm::dvec3& p_world, const TapeCell* near, double radius,
+                       PruneCounts& counts) const;
+    /// Tells that a cell's tape has been run so often more.
     void ran(const TapeCell& cell, std::uint32_t passes, PruneCounts& counts) const;
     void ran(const TapeCell& cell, std::uint32_t passes) const;
 

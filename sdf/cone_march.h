@@ -16,6 +16,7 @@ class ConeMarch {
     bool asks() const { return !tracing::traceEnded(state_) && evaluations_ < kMostEvaluations; }
     double askedAt() const { return tracing::traceAt(state_); }
     glm::dvec3 askedPoint() const { return beam_.at(askedAt()); }
+    double radius() const { return beam_.half_width + beam_.sine * askedAt(); }
     /// f / L, times the rays' sign.
     void take(double value);
 

@@ -5,10 +5,10 @@
 
 namespace edgewise::sdf {
 
-#define EDGEWISE_DECLARE_VALUES(isa)                                   \
-    namespace isa {                                                    \
-    void laneValues(const TapeView&, const LanePoints&, double*);      \
-    void laneWinners(const TapeView&, const LaneBalls&, PairWinners*); \
+#define EDGEWISE_DECLARE_VALUES(isa)                                \
+    namespace isa {                                                 \
+    void laneValues(const TapeView&, const LanePoints&, double*);   \
+    void laneVerdicts(const TapeView&, const LaneBalls&, Verdict*); \
     }
 EDGEWISE_DECLARE_VALUES(scalar)
 EDGEWISE_DECLARE_VALUES(sse2)
@@ -34,21 +34,21 @@ void laneValues(const TapeView& tape, const LanePoints& p, double (&values)[kPoi
     best(tape, p, values);
 }
 
-LaneWinnersFunction laneWinnersFor(const char* instruction_set) {
+LaneVerdictsFunction laneVerdictsFor(const char* instruction_set) {
     if (!machineRuns(instruction_set)) return nullptr;
     const auto is = [=](const char* name) { return std::strcmp(instruction_set, name) == 0; };
-    if (is("scalar")) return scalar::laneWinners;
-    if (is("sse2")) return sse2::laneWinners;
+    if (is("scalar")) return scalar::laneVerdicts;
+    if (is("sse2")) return sse2::laneVerdicts;
 #if defined(EDGEWISE_HAS_AVX)
-    if (is("avx2")) return avx2::laneWinners;
-    if (is("avx512")) return avx512::laneWinners;
+    if (is("avx2")) return avx2::laneVerdicts;
+    if (is("avx512")) return avx512::laneVerdicts;
 #endif
     return nullptr;
 }
 
-void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
-    static const LaneWinnersFunction best = bestForm(laneWinnersFor);
-    best(tape, balls, winners);
+void laneVerdicts(const TapeView& tape, const LaneBalls& balls, Verdict* verdicts) {
+    static const LaneVerdictsFunction best = bestForm(laneVerdictsFor);
+    best(tape, balls, verdicts);
 }
 
 }  // namespace edgewise::sdf

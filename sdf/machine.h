@@ -22,23 +22,23 @@ EDGEWISE_FN void step(const Instruction& i, Code code, const double* numbers, Sl
     switch (code) {
 #define EDGEWISE_SHAPE(name)                                            \
     case Code::name:                                                    \
-        s.value[i.to] = applyTo<R>(&F::name, s.position[i.a], numbers); \
+        s.value[i.to] = applyTo<R, &F::name>(numbers, s.position[i.a]); \
         break;
 #define EDGEWISE_MOVE(name)                                                \
     case Code::name:                                                       \
-        s.position[i.to] = applyTo<R>(&F::name, s.position[i.a], numbers); \
+        s.position[i.to] = applyTo<R, &F::name>(numbers, s.position[i.a]); \
         break;
 #define EDGEWISE_VALUE(name)                                          \
     case Code::name:                                                  \
-        s.value[i.to] = applyTo<R>(&F::name, s.value[i.to], numbers); \
+        s.value[i.to] = applyTo<R, &F::name>(numbers, s.value[i.to]); \
         break;
 #define EDGEWISE_VALUE_AT(name)                                                        \
     case Code::name:                                                                   \
-        s.value[i.to] = applyTo<R>(&F::name, s.value[i.to], s.position[i.b], numbers); \
+        s.value[i.to] = applyTo<R, &F::name>(numbers, s.value[i.to], s.position[i.b]); \
         break;
 #define EDGEWISE_PAIR(name)                                                         \
     case Code::name:                                                                \
-        s.value[i.to] = applyTo<R>(&F::name, s.value[i.to], s.value[i.b], numbers); \
+        s.value[i.to] = applyTo<R, &F::name>(numbers, s.value[i.to], s.value[i.b]); \
         break;
         EDGEWISE_SDF_CODES(EDGEWISE_SHAPE, EDGEWISE_MOVE, EDGEWISE_VALUE, EDGEWISE_VALUE_AT, EDGEWISE_PAIR)
 #undef EDGEWISE_SHAPE

@@ -26,12 +26,14 @@ Tape pruneTape(const Tape& tape, const glm::dvec3& centre_world, double radius,
 /// No code makes more of them on the way to its result, each of a number no larger than what it was given.
 inline constexpr double kRoundingsAnInstruction = 32.0;
 
-/// The picks of eight shorter tapes, each from its begin to the end of its buffer; reused from one to the
-/// next.
+/// The picks of eight shorter tapes, each at the end of its part of the buffer; reused from one to the next.
 struct PickLists {
-    std::array<std::vector<Pick>, kPointLanes> buffer;
+    std::vector<Pick> buffer;
+    std::size_t room = 0;  ///< of each part
     std::array<std::size_t, kPointLanes> begin{};
-    std::span<const Pick> of(int ball) const { return std::span(buffer[ball]).subspan(begin[ball]); }
+    std::span<const Pick> of(int ball) const {
+        return std::span(buffer).subspan(begin[ball], (ball + 1) * room - begin[ball]);
+    }
 };
 
 /// The same in double, for eight balls of one size at a time, of a tape that may be a shortened one.

@@ -1,91 +1,83 @@
 // pruneTape() for eight balls at once.
-#include <bit>
-
 #include "sdf/prune.h"
 
 namespace edgewise::sdf {
 namespace {
 
-CodeForm formOf(Code code) {
-    return kCodeForms[static_cast<int>(code)];
-}
-
 /// Backwards through eight shorter tapes: a bit of what is needed is a ball's.
 class Keeping {
   public:
-    explicit Keeping(PickLists& shorter) : shorter_(shorter) {
+    explicit Keeping(PickLists& shorter) : buffer_(shorter.buffer.data()), next_(shorter.begin) {
         values_[0] = 0xff;
-        for (int ball = 0; ball < kPointLanes; ++ball)
-            next_[ball] = shorter.buffer[ball].data() + shorter.buffer[ball].size();
-    }
-    ~Keeping() {
-        for (int ball = 0; ball < kPointLanes; ++ball)
-            shorter_.begin[ball] = static_cast<std::size_t>(next_[ball] - shorter_.buffer[ball].data());
+        for (int ball = 0; ball < kPointLanes; ++ball) next_[ball] = (ball + 1) * shorter.room;
     }
 
-    /// `winners`: past the pair's own.
-    void take(const Instruction& i, Code code, Pick pick, const PairWinners*& winners) {
-        const CodeForm form = formOf(code);
-        if (form == CodeForm::kPair) --winners;
-        Set& written = form == CodeForm::kMove ? positions_[i.to] : values_[i.to];
+    void take(const Verdict& v, Pick pick) {
+        Set& written = v.form == CodeForm::kMove ? positions_[v.to] : values_[v.to];
         const Set needed = written;
         if (needed == 0) return;
-        if (form == CodeForm::kPair) return pair(i, pick, *winners, needed);
-        if (form == CodeForm::kMove || form == CodeForm::kShape) written = 0, positions_[i.a] |= needed;
-        if (form == CodeForm::kValueAt) positions_[i.b] |= needed;
-        if (form == CodeForm::kKeep) written = 0, values_[i.b] |= needed;
+        switch (v.form) {
+            case CodeForm::kPair:
+                return pair(v, pick, needed);
+            case CodeForm::kMove:
+            case CodeForm::kShape:
+                written = 0;
+                positions_[v.from] |= needed;
+                break;
+            case CodeForm::kValueAt:
+                positions_[v.from] |= needed;
+                break;
+            case CodeForm::kKeep:
+                written = 0;
+                values_[v.from] |= needed;
+                break;
+            case CodeForm::kValue:
+                break;
+        }
         add(pick, needed);
     }
 
   private:
     using Set = std::uint8_t;
 
-    void pair(const Instruction& i, Pick pick, const PairWinners& winners, Set needed) {
-        const Set second = needed & winners.second;
-        const Set both = static_cast<Set>(needed & ~(winners.first | winners.second));
-        values_[i.b] |= second | both;
-        values_[i.to] = static_cast<Set>(needed & ~second);
-        add(pick, both);
+    void pair(const Verdict& v, Pick pick, Set needed) {
+        const Set second = needed & v.second;
+        const Set both = static_cast<Set>(needed & ~(v.first | v.second));
+        values_[v.from] |= second | both;
+        values_[v.to] = static_cast<Set>(needed & ~second);
+        if (both != 0) add(pick, both);
         if (second == 0) return;
-        const bool cuts = i.code == Code::subtract || i.code == Code::smoothSubtract;
-        if (cuts) add({pick.index, Pick::kComplement}, second);
+        if (v.negates) add({pick.index, Pick::kComplement}, second);
         add({pick.index, Pick::kKeep}, second);
     }
+    /// Written to all lists, and kept in some: no branch has to be foretold.
     void add(Pick pick, unsigned balls) {
-        for (; balls != 0; balls &= balls - 1) *--next_[std::countr_zero(balls)] = pick;
+        for (unsigned ball = 0; ball < kPointLanes; ++ball) {
+            buffer_[next_[ball] - 1] = pick;
+            next_[ball] -= balls >> ball & 1;
+        }
     }
 
-    PickLists& shorter_;
-    std::array<Pick*, kPointLanes> next_{};
+    Pick* buffer_;
+    std::array<std::size_t, kPointLanes>& next_;
     std::array<Set, kMostSlots> positions_{}, values_{};
 };
-
-std::size_t pairsOf(const TapeView& tape) {
-    std::size_t pairs = 0;
-    tape.forEach([&](const Instruction&, Code code) { pairs += formOf(code) == CodeForm::kPair; });
-    return pairs;
-}
 
 }  // namespace
 
 void pruneEight(const TapeView& tape, int positions, int values, const LanePoints& centres, double radius,
                 PickLists& shorter) {
-    thread_local std::vector<PairWinners> winners;
-    const std::size_t pairs = pairsOf(tape);
-    if (winners.size() < pairs) winners.resize(pairs);
+    thread_local std::vector<Verdict> verdicts;
+    if (verdicts.size() < tape.size()) verdicts.resize(tape.size());
     const double longest_path = positions + values + 2.0;
-    laneWinners(tape, {centres, radius, kDoubleRounding * kRoundingsAnInstruction * longest_path},
-                winners.data());
-    const std::size_t most = tape.size() + pairs;
-    for (std::vector<Pick>& buffer : shorter.buffer)
-        if (buffer.size() < most) buffer.resize(most);
-    const PairWinners* next = winners.data() + pairs;
+    laneVerdicts(tape, {centres, radius, kDoubleRounding * kRoundingsAnInstruction * longest_path},
+                 verdicts.data());
+    shorter.room = 2 * tape.size() + 1;  // a pair may leave two; one is written before a list's begin
+    if (shorter.buffer.size() < kPointLanes * shorter.room) shorter.buffer.resize(kPointLanes * shorter.room);
     Keeping keeping(shorter);
-    for (std::size_t n = tape.size(); n-- > 0;) {
-        const Pick pick = tape.picks ? tape.picks[n] : Pick{static_cast<std::uint32_t>(n), Pick::kAsItIs};
-        const Instruction& i = tape.instructions[pick.index];
-        keeping.take(i, TapeView::codeOf(i, pick), pick, next);
-    }
+    for (std::size_t n = tape.size(); n-- > 0;)
+        keeping.take(verdicts[n],
+                     tape.picks ? tape.picks[n] : Pick{static_cast<std::uint32_t>(n), Pick::kAsItIs});
 }
 
 }  // namespace edgewise::sdf

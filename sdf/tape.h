@@ -47,13 +47,11 @@ struct TapeView {
     /// For each in order: f(the whole tape's instruction, its code here).
     template <class F>
     [[gnu::always_inline]] inline void forEach(const F& f) const {
-        if (!picks)
-            for (std::size_t n = 0; n < count; ++n) f(instructions[n], instructions[n].code);
-        else
-            for (std::size_t n = 0; n < count; ++n) {
-                const Instruction& i = instructions[picks[n].index];
-                f(i, codeOf(i, picks[n]));
-            }
+        for (std::size_t n = 0; n < count; ++n) {
+            const Pick pick = picks ? picks[n] : Pick{static_cast<std::uint32_t>(n), Pick::kAsItIs};
+            const Instruction& i = instructions[pick.index];
+            f(i, codeOf(i, pick));
+        }
     }
     [[gnu::always_inline]] static inline Code codeOf(const Instruction& i, Pick pick) {
         return pick.kind == Pick::kAsItIs ? i.code

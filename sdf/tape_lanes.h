@@ -29,15 +29,19 @@ struct LaneBalls {
     double rounding;  ///< of all arithmetic on the way to a value, as a part of it
 };
 
-/// In which balls (a bit each) a pair's first side is the result everywhere, and in which its second.
-struct PairWinners {
+/// Of an instruction, what shortening a tape asks, side by side; of a pair besides in which balls (a bit
+/// each) its first side is the result everywhere, and in which its second.
+struct Verdict {
+    CodeForm form;
+    bool negates;           ///< of pairs: the second side
+    std::uint8_t to, from;  ///< slots: `from` is what a shape or a move is asked at, else Instruction::b
     std::uint8_t first, second;
 };
 
-using LaneWinnersFunction = void (*)(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
-LaneWinnersFunction laneWinnersFor(const char* instruction_set);
+using LaneVerdictsFunction = void (*)(const TapeView& tape, const LaneBalls& balls, Verdict* verdicts);
+LaneVerdictsFunction laneVerdictsFor(const char* instruction_set);
 
-/// One entry a pair, in the tape's order: what pruneTape() decides of each ball.
-void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
+/// One an instruction: what pruneTape() decides, of each ball.
+void laneVerdicts(const TapeView& tape, const LaneBalls& balls, Verdict* verdicts);
 
 }  // namespace edgewise::sdf

@@ -146,10 +146,9 @@ class Referee {
                             (size_ * Lanes(slope < 1.0 ? 1.0 : slope) + abs(value)) * Lanes(rounding_);
         return {value - reach, value + reach};
     }
-    /// Apart by more than `band`.
-    static PairWinners lower(const Side& a, const Side& b, double band) {
-        return {static_cast<std::uint8_t>(setOf(less(Lanes(band), b.low - a.high))),
-                static_cast<std::uint8_t>(setOf(less(Lanes(band), a.low - b.high)))};
+    /// In which balls a is below b by more than `band`.
+    static std::uint8_t below(const Side& a, const Side& b, double band) {
+        return static_cast<std::uint8_t>(setOf(less(Lanes(band), b.low - a.high)));
     }
 
   private:
@@ -157,17 +156,18 @@ class Referee {
     Lanes size_;
 };
 
-EDGEWISE_FN PairWinners winnersOf(const Instruction& i, const double* numbers, const Referee& referee,
-                                  const Slots<Lanes>& s, const double* slope) {
+EDGEWISE_FN void judge(Verdict& verdict, const Instruction& i, const double* numbers, const Referee& referee,
+                       const Slots<Lanes>& s, const double* slope) {
     const bool unites = i.code == Code::unite || i.code == Code::smoothUnite;
-    const bool cuts = i.code == Code::subtract || i.code == Code::smoothSubtract;
     const bool smooth = i.code == Code::smoothUnite || i.code == Code::smoothIntersect ||
                         i.code == Code::smoothSubtract;
+    verdict.negates = i.code == Code::subtract || i.code == Code::smoothSubtract;
     const double band = smooth ? numbers[0] : 0.0;
     const Side a = referee.side(s.value[i.to], slope[i.to]);
-    const Side b = referee.side(cuts ? -s.value[i.b] : s.value[i.b], slope[i.b]);
-    const PairWinners below = Referee::lower(a, b, band);
-    return unites ? below : PairWinners{below.second, below.first};
+    const Side b = referee.side(verdict.negates ? -s.value[i.b] : s.value[i.b], slope[i.b]);
+    const std::uint8_t first_below = Referee::below(a, b, band), second_below = Referee::below(b, a, band);
+    verdict.first = unites ? first_below : second_below;
+    verdict.second = unites ? second_below : first_below;
 }
 }  // namespace
 
@@ -184,8 +184,8 @@ void laneValues(const TapeView& tape, const LanePoints& p, double* values) {
         __builtin_memcpy(values + i * EDGEWISE_LANES, &s.value[0].part[i], sizeof(one::real));
 }
 
-void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners);
-void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winners) {
+void laneVerdicts(const TapeView& tape, const LaneBalls& balls, Verdict* verdicts);
+void laneVerdicts(const TapeView& tape, const LaneBalls& balls, Verdict* verdicts) {
     thread_local Slots<Lanes> slots;
     Slots<Lanes>& s = slots;
     double slope[kMostSlots];
@@ -195,7 +195,10 @@ void laneWinners(const TapeView& tape, const LaneBalls& balls, PairWinners* winn
     const double* numbers = tape.numbers;
     tape.forEach([&](const Instruction& i, Code code) __attribute__((always_inline)) {
         const CodeForm form = kCodeForms[static_cast<int>(code)];
-        if (form == CodeForm::kPair) *winners++ = winnersOf(i, numbers + i.numbers, referee, s, slope);
+        const bool asked_at = form == CodeForm::kMove || form == CodeForm::kShape;
+        Verdict& verdict = *verdicts++;
+        verdict = {form, false, i.to, asked_at ? i.a : i.b, 0, 0};
+        if (form == CodeForm::kPair) judge(verdict, i, numbers + i.numbers, referee, s, slope);
         step(i, code, numbers + i.numbers, s);
         if (form != CodeForm::kMove) slope[i.to] = form == CodeForm::kKeep ? slope[i.b] : i.lipschitz;
     });

@@ -23,6 +23,7 @@ class RayAsker {
     double askedAt() const { return trace_.askedAt(); }
     glm::dvec3 askedPoint() const { return ray_.origin_world + ray_.direction_world * trace_.askedAt(); }
     void take(double value) { trace_.take(value); }
+    double radius() const { return ray_.pixel_radius + ray_.pixel_slope * trace_.askedAt(); }
     TraceHit hit(double scale) const { return trace_.hit(scale); }
     std::uint32_t index() const { return index_; }
 
@@ -52,7 +53,7 @@ class LaneQueue {
     };
     void await(Asker& asker, const TapeCell* near) {
         if (!asker.asks()) return;
-        const TapeCell& cell = cells_.at(asker.askedPoint(), near);
+        const TapeCell& cell = cells_.at(asker.askedPoint(), near, asker.radius(), counts_.prune);
         waiting_.push_back({cell.index, &cell, &asker});
     }
 
