@@ -12,7 +12,7 @@ namespace edgewise::sdf {
 namespace {
 
 /// Shorter tapes are not worth shortening: that takes as long as asking them once or twice.
-constexpr std::size_t kShortTape = 24;
+constexpr std::size_t kFewInstructions = 24;
 
 /// A hit of less exact arithmetic that lies behind the surface is moved as far before it: patterns may have
 /// an edge on the surface itself.
@@ -52,7 +52,7 @@ void describeHalves(const Tape& tape, std::span<SurfaceHit*> hits, int axis, std
 }  // namespace
 
 void describeHits(const Tape& tape, std::span<SurfaceHit*> hits, std::size_t materials, bool prune) {
-    if (!prune || tape.size() <= kShortTape || hits.size() <= 2) {
+    if (!prune || tape.size() <= kFewInstructions || hits.size() <= 2) {
         for (SurfaceHit* hit : hits) describe(tape, *hit, materials);
         return;
     }
