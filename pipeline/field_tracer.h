@@ -15,7 +15,6 @@ namespace edgewise {
 
 struct FieldSettings {
     sdf::TraceSettings trace;
-    std::uint64_t seed = 0;
 };
 
 /// Samples of a window of pixels, row by row: a pixel has per_side^2 samples of the lattice, or one at

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
@@ -15,8 +16,6 @@
 
 namespace edgewise {
 namespace {
-
-constexpr const char* kNoBound = "the field changes faster than its bound says";
 
 int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
@@ -191,17 +190,11 @@ class CpuFieldTracer : public FieldTracer {
         result.plan.push_back({"prepass", t.prepass && field, prepassWords(field)});
         const bool prunes = t.prune && scene_.bound_holds && tape_.size() >= sdf::kShortTape;
         result.plan.push_back({"prune", prunes, pruneWords(field)});
-        const bool convex = t.convex && scene_.convex.has_value();
-        result.plan.push_back({"convex", convex,
-                               convex          ? "rays are traced within the scene's convex bound alone"
-                               : scene_.convex ? "switched off"
-                                               : "the scene names no convex bound"});
-        result.plan.push_back({"analytic", !scene_.analytic.empty(),
-                               fmt::format("{} shapes are met in closed form", scene_.analytic.size())});
+        addClosedForms(scene_, settings_, result.plan);
     }
     std::string prepassWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!scene_.bound_holds) return kNoBound;
+        if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prepass) return "switched off";
         return fmt::format("{} cones with {} evaluations; {} of {} tiles are empty", counts_.cones,
                            counts_.cone_evaluations, counts_.empty_tiles,
@@ -209,7 +202,7 @@ class CpuFieldTracer : public FieldTracer {
     }
     std::string pruneWords(bool field) const {
         if (!field) return "the scene has no field";
-        if (!scene_.bound_holds) return kNoBound;
+        if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prune) return "switched off";
         if (tape_.size() < sdf::kShortTape)
             return fmt::format("{} instructions are too few to be worth it", tape_.size());

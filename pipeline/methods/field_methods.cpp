@@ -26,9 +26,8 @@ sdf::Relaxation relaxationOf(const std::string& name) {
     return name == "balint" ? sdf::Relaxation::kBalint : sdf::Relaxation::kAuto;
 }
 
-FieldSettings settingsOf(const MethodSpec& spec, const RenderOptions& options) {
+FieldSettings settingsOf(const MethodSpec& spec) {
     FieldSettings settings;
-    settings.seed = options.seed;
     sdf::TraceSettings& t = settings.trace;
     const auto isOn = [&](const char* key, bool fallback) {
         return spec.parameter(key, fallback ? "on" : "off") == "on";
@@ -72,19 +71,15 @@ MethodResult filteredPicture(const PostProcess& process, const MethodSpec& spec,
 }  // namespace
 
 MethodResult traceNone(const MethodSpec&, const MethodInput& in, FieldTracerMaker make) {
-    FieldSettings settings;
-    settings.seed = in.options.seed;
-    return tracePixels(in, settings, make);
+    return tracePixels(in, {}, make);
 }
 
 MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
-    return tracePixels(in, settingsOf(spec, in.options), make);
+    return tracePixels(in, settingsOf(spec), make);
 }
 
 MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
-    FieldSettings settings;
-    settings.seed = in.options.seed;
-    return traceFiltered(in, settings, *spec.number, make);
+    return traceFiltered(in, {}, *spec.number, make);
 }
 
 MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
@@ -172,21 +173,15 @@ class VulkanFieldTracer : public FieldTracer {
     }
 
     void addPlan(MethodResult& result) const {
-        const bool convex = settings_.convex && scene_.convex.has_value();
         const bool batches = !shaders_.field.batches.empty();
         result.plan.push_back({"prepass", rays_ && settings_.prepass, prepassWords()});
         result.plan.push_back({"prune", rays_ && !shaders_.prune.empty(), pruneWords()});
         result.plan.push_back({"table", batches, tableWords()});
-        result.plan.push_back({"convex", convex,
-                               convex          ? "rays are traced within the scene's convex bound alone"
-                               : scene_.convex ? "switched off"
-                                               : "the scene names no convex bound"});
-        result.plan.push_back({"analytic", !scene_.analytic.empty(),
-                               fmt::format("{} shapes are met in closed form", scene_.analytic.size())});
+        addClosedForms(scene_, settings_, result.plan);
     }
     std::string prepassWords() const {
         if (!rays_) return "the scene has no field";
-        if (!scene_.bound_holds) return "the field changes faster than its bound says";
+        if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prepass) return "switched off";
         const FieldCounts& counts = rays_->counts();
         return fmt::format("cones of {} tiles of 64 rays took {} evaluations; {} tiles are empty",
@@ -194,7 +189,7 @@ class VulkanFieldTracer : public FieldTracer {
     }
     std::string pruneWords() const {
         if (!rays_) return "the scene has no field";
-        if (!scene_.bound_holds) return "the field changes faster than its bound says";
+        if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prune || input_.options.keeps("empty")) return "switched off";
         if (shaders_.prune.empty()) return "no fold of many like children: the shader is straight-line";
         const FieldCounts& counts = rays_->counts();
