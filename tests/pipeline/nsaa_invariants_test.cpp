@@ -210,9 +210,14 @@ TEST(Nsaa, BandsDoNotShow) {
         }
 }
 
-/// Collects the threads that advance it. The first waits for a second one: a busy machine may start it late.
+/// Collects the threads that advance it. Where there is work for many, the first waits for a second one: a
+/// busy machine may start it late.
 struct ThreadProgress : Progress {
-    explicit ThreadProgress(bool wait) : wait_for_second(wait) {}
+    explicit ThreadProgress(bool wait_) : wait(wait_) {}
+    void stage(std::string_view name, std::size_t) override {
+        const std::lock_guard lock(mutex);
+        wait_for_second = wait && name == "visibility";
+    }
     void advance(std::size_t) override {
         std::unique_lock lock(mutex);
         threads.insert(std::this_thread::get_id());
@@ -223,7 +228,8 @@ struct ThreadProgress : Progress {
     std::mutex mutex;
     std::condition_variable another;
     std::set<std::thread::id> threads;
-    bool wait_for_second;
+    const bool wait;
+    bool wait_for_second = false;
 };
 
 TEST(Nsaa, AForcedInstructionSetIsTheOneThatRuns) {
