@@ -4,10 +4,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "pipeline/field_wavefront.h"
 #include "pipeline/methods/method.h"
+#include "sdf/cone_trace.h"
 #include "sdf/field_scene.h"
 #include "sdf/trace_settings.h"
 
@@ -15,6 +19,7 @@ namespace edgewise {
 
 struct FieldSettings {
     sdf::TraceSettings trace;
+    std::optional<sdf::ConeSettings> cones;  ///< for traceCones()
 };
 
 /// Samples of a window of pixels, row by row: a pixel has per_side^2 samples of the lattice, or one at
@@ -36,12 +41,31 @@ struct FieldSamples {
     std::vector<std::uint32_t> surface;  ///< the material; kNone: nothing is hit
     std::vector<float> residual;         ///< the field's value at the hit
     std::vector<std::uint32_t> evaluations, iterations;
+    std::vector<std::uint8_t> mixed;  ///< 1: of more than one colour; empty where samples have one each
+};
+
+/// What the cones around a window's samples meet, front to back. One entry a sample: `rays`, `evaluations`,
+/// and `begin` with one more: a sample's groups are those from begin[i] up to begin[i + 1].
+struct FieldCones {
+    std::vector<sdf::TravellingRay> rays;
+    std::vector<std::uint32_t> begin, evaluations;
+    std::vector<sdf::ConeGroup> groups;
+    std::vector<sdf::SurfaceHit> surfaces;  ///< where each group is shaded
+    std::size_t samples() const { return rays.size(); }
 };
 
 class FieldTracer {
   public:
     virtual ~FieldTracer() = default;
     virtual FieldSamples trace(const FieldWindow& window) = 0;
+    /// Wants FieldSettings::cones, and a scene without closed forms (fieldOfAll).
+    virtual FieldCones traceCones(const FieldWindow& window) = 0;
+    /// Linear colours of rays whose hits are known, as trace() gives them. Neighbours should be near each
+    /// other.
+    virtual std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                          std::vector<sdf::SurfaceHit> hits) = 0;
+    /// Any other rays through the same scene.
+    virtual RayBatches& batches() = 0;
     /// Adds its stage times, plan, counts, notes, set-up and device.
     virtual void report(MethodResult& result) const = 0;
 };

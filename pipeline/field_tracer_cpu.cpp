@@ -1,9 +1,11 @@
 // SDF scenes on the CPU: tiles of rays on all threads, then each hit is shaded.
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
@@ -21,6 +23,35 @@ int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
 }
 
+/// Any rays, a ray at a time on all threads.
+class CpuBatches : public RayBatches {
+  public:
+    explicit CpuBatches(const sdf::SceneTracer& tracer) : tracer_(tracer) {}
+    std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<sdf::SurfaceHit> hits(rays.size());
+        tbb::parallel_for(std::size_t(0), rays.size(),
+                          [&](std::size_t i) { hits[i] = tracer_.nearest(rays[i].ray, rays[i].sign); });
+        return hits;
+    }
+    std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<char> hidden(rays.size());
+        tbb::parallel_for(std::size_t(0), rays.size(), [&](std::size_t i) {
+            std::uint64_t evaluations = 0;
+            hidden[i] = tracer_.occluded(rays[i].ray, rays[i].sign, evaluations);
+        });
+        return hidden;
+    }
+
+  private:
+    const sdf::SceneTracer& tracer_;
+};
+
+/// A tile's samples, and their groups one after the other.
+struct TileCones {
+    std::vector<std::uint32_t> samples, counts, evaluations;
+    std::vector<sdf::ConeGroup> groups;
+};
+
 class CpuFieldTracer : public FieldTracer {
   public:
     CpuFieldTracer(const MethodInput& in, const FieldSettings& settings)
@@ -29,7 +60,9 @@ class CpuFieldTracer : public FieldTracer {
           scene_(*in.scene.field),
           tape_(loweredTree(requireTree("tracing", in.scene))),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
+          cones_(settings.cones.value_or(sdf::ConeSettings{})),
           tracer_(scene_, tape_, settings_),
+          batches_(tracer_),
           shader_(fieldShading(in, settings_, false), tracer_) {
         sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
         setup_seconds_ = watch_.lap();
@@ -47,6 +80,34 @@ class CpuFieldTracer : public FieldTracer {
         watch_.book("shade", stages_);
         return out;
     }
+
+    FieldCones traceCones(const FieldWindow& window) override {
+        watch_.lap();
+        std::vector<TileCones> tiles = coneTiles(window);
+        checkCancelled(in_.progress);
+        FieldCones out = joined(window, tiles);
+        tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) { describe(tiles[i], out); });
+        watch_.book("trace", stages_);
+        return out;
+    }
+
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::vector<sdf::SurfaceHit> hits) override {
+        watch_.lap();
+        std::vector<glm::dvec4> colors(rays.size());
+        tbb::enumerable_thread_specific<sdf::RayCounts> counts;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 256), [&](const auto& part) {
+            if (in_.progress.cancelled()) return;
+            for (std::size_t i = part.begin(); i != part.end(); ++i)
+                colors[i] = shader_.shade(rays[i].ray, hits[i], counts.local(), rays[i].sign);
+        });
+        for (const sdf::RayCounts& part : counts) ray_counts_ += part;
+        checkCancelled(in_.progress);
+        watch_.book("shade", stages_);
+        return colors;
+    }
+
+    RayBatches& batches() override { return batches_; }
 
     void report(MethodResult& result) const override {
         for (const StageTime& stage : stages_) result.stages.push_back(stage);
@@ -89,23 +150,95 @@ class CpuFieldTracer : public FieldTracer {
         return settings;
     }
 
-    void traceTiles(const FieldWindow& window, std::vector<sdf::TraceHit>& hits) {
+    /// The top tiles that a window meets, by rows.
+    struct TileGrid {
+        int side, x0, y0;
+        std::size_t across, count;
+        TileGrid(const PixelBox& box, int tile_side)
+            : side(tile_side), x0(tileOf(box.x0, side)), y0(tileOf(box.y0, side)) {
+            across = static_cast<std::size_t>(tileOf(box.x1 - 1, side) + 1 - x0);
+            count = across * static_cast<std::size_t>(tileOf(box.y1 - 1, side) + 1 - y0);
+        }
+        PixelBox tile(std::size_t i) const {
+            const int x = (x0 + static_cast<int>(i % across)) * side;
+            const int y = (y0 + static_cast<int>(i / across)) * side;
+            return {x, y, x + side, y + side};
+        }
+    };
+    /// Calls work(tile's number, tile, tracer, counts) on all threads.
+    template <class Work>
+    void eachTile(const FieldWindow& window, const Work& work) {
         const sdf::TraceSettings settings = tileSettings(window);
         const sdf::TileSides sides = sdf::TileSides::forSamples(window.per_side);
         const sdf::TileTracer tiles(tape_, grid_, settings, sign_, sides, &tracer_.cells());
-        const PixelBox& box = window.pixels;
-        const int side = sides.top_px, x0 = tileOf(box.x0, side), x1 = tileOf(box.x1 - 1, side) + 1;
-        const int y0 = tileOf(box.y0, side), y1 = tileOf(box.y1 - 1, side) + 1;
-        const std::size_t across = static_cast<std::size_t>(x1 - x0), count = across * (y1 - y0);
+        const TileGrid grid(window.pixels, sides.top_px);
         tbb::enumerable_thread_specific<sdf::TileCounts> counts;
-        tbb::parallel_for(std::size_t(0), count, [&](std::size_t tile) {
-            if (in_.progress.cancelled()) return;
-            const int x = (x0 + static_cast<int>(tile % across)) * side;
-            const int y = (y0 + static_cast<int>(tile / across)) * side;
-            std::vector<sdf::TileRay> rays = raysOf(window, {x, y, x + side, y + side});
-            tiles.trace(x, y, rays, hits, counts.local());
+        tbb::parallel_for(std::size_t(0), grid.count, [&](std::size_t i) {
+            if (!in_.progress.cancelled()) work(i, grid.tile(i), tiles, counts.local());
         });
         for (const sdf::TileCounts& part : counts) counts_ += part;
+    }
+
+    void traceTiles(const FieldWindow& window, std::vector<sdf::TraceHit>& hits) {
+        eachTile(window, [&](std::size_t, const PixelBox& tile, const sdf::TileTracer& tiles,
+                             sdf::TileCounts& counts) {
+            std::vector<sdf::TileRay> rays = raysOf(window, tile);
+            tiles.trace(tile.x0, tile.y0, rays, hits, counts);
+        });
+    }
+
+    std::vector<TileCones> coneTiles(const FieldWindow& window) {
+        const int side = sdf::TileSides::forSamples(window.per_side).top_px;
+        std::vector<TileCones> out(TileGrid(window.pixels, side).count);
+        if (tape_.size() == 0) return out;
+        eachTile(window, [&](std::size_t i, const PixelBox& tile, const sdf::TileTracer& tiles,
+                             sdf::TileCounts& counts) {
+            std::vector<sdf::TileRay> rays = raysOf(window, tile);
+            for (std::size_t k = 0; k < rays.size(); ++k) {
+                out[i].samples.push_back(rays[k].index);
+                rays[k].index = static_cast<std::uint32_t>(k);
+            }
+            std::vector<sdf::ConeHits> hits(rays.size());
+            tiles.traceCones(tile.x0, tile.y0, rays, cones_, hits, counts);
+            for (const sdf::ConeHits& met : hits) {
+                out[i].counts.push_back(static_cast<std::uint32_t>(met.count));
+                out[i].evaluations.push_back(met.evaluations);
+                out[i].groups.insert(out[i].groups.end(), met.groups.begin(), met.groups.begin() + met.count);
+            }
+        });
+        return out;
+    }
+
+    /// All but the groups and their surfaces.
+    FieldCones joined(const FieldWindow& window, const std::vector<TileCones>& tiles) const {
+        FieldCones out;
+        const std::size_t count = window.samples(), stride = window.stride();
+        out.rays.resize(count), out.evaluations.resize(count), out.begin.resize(count + 1);
+        tbb::parallel_for(std::size_t(0), count / stride, [&](std::size_t row) {
+            for (std::size_t column = 0; column < stride; ++column)
+                out.rays[row * stride + column] = {grid_.ray(positionOf(window, row, column)), sign_};
+        });
+        for (const TileCones& tile : tiles)
+            for (std::size_t k = 0; k < tile.samples.size(); ++k) {
+                out.begin[tile.samples[k] + 1] = tile.counts[k];
+                out.evaluations[tile.samples[k]] = tile.evaluations[k];
+            }
+        std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+        out.groups.resize(out.begin.back()), out.surfaces.resize(out.begin.back());
+        return out;
+    }
+
+    void describe(const TileCones& tile, FieldCones& out) const {
+        const sdf::ConeGroup* group = tile.groups.data();
+        for (std::size_t k = 0; k < tile.samples.size(); ++k) {
+            const std::uint32_t sample = tile.samples[k];
+            for (std::uint32_t i = out.begin[sample]; i < out.begin[sample + 1]; ++i, ++group) {
+                out.groups[i] = *group;
+                const sdf::TraceHit hit{sdf::TraceEnd::kSurface, group->t, 0.0,
+                                        out.evaluations[sample], 0,        0};
+                out.surfaces[i] = tracer_.fieldHit(out.rays[sample].ray, hit, sign_);
+            }
+        }
     }
 
     /// Of a tile's pixels within the window. Rays end where a closed form's surface is, and where the convex
@@ -218,7 +351,9 @@ class CpuFieldTracer : public FieldTracer {
     Stopwatch watch_;
     const sdf::Tape tape_;
     const sdf::RayGrid grid_;
+    const sdf::ConeSettings cones_;
     const sdf::SceneTracer tracer_;
+    CpuBatches batches_;
     const sdf::Shader shader_;
     double sign_ = 1.0, setup_seconds_ = 0.0;
     std::vector<StageTime> stages_;

@@ -44,7 +44,9 @@ void ConeTrace::take(double value) {
 
 void ConeTrace::keepGroup() {
     const int at = std::min(hits_.count, ConeHits::kMostGroups - 1);
-    hits_.groups[at] = {cones::coneSampleAt(state_), state_.least, state_.hard};
+    // What fills the cone fills the mask, whose points may lie outside of the cone.
+    const bool fills = state_.end == cones::kConeFull && state_.least <= -1.0;
+    hits_.groups[at] = {cones::coneSampleAt(state_), fills ? -2.0 : state_.least, state_.hard};
     hits_.count = at + 1;
 }
 
@@ -66,9 +68,16 @@ void ConeBlend::add(std::uint32_t uncovered_bits, const glm::dvec4& color) {
     covered_ |= uncovered_bits;
 }
 
+bool ConeBlend::normalized() const {
+    return settings_.normalize_sky || settings_.uniform || !open();
+}
+
+bool ConeBlend::skyShows() const {
+    return normalized() ? weight_ == 0.0 : covered_ != ~0u;
+}
+
 glm::dvec4 ConeBlend::over(const glm::dvec4& sky) const {
-    const bool normalized = settings_.normalize_sky || settings_.uniform || settings_.visible < 32;
-    if (normalized) return weight_ > 0.0 ? sum_ / weight_ : sky;
+    if (normalized()) return weight_ > 0.0 ? sum_ / weight_ : sky;
     return sum_ + (std::popcount(~covered_) / kMaskBits) * sky;
 }
 

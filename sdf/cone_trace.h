@@ -66,10 +66,15 @@ class ConeBlend {
     /// Whether more groups could be seen.
     bool open() const;
     void add(std::uint32_t uncovered_bits, const glm::dvec4& color);
+    /// Whether what lies behind all groups has a part.
+    bool skyShows() const;
     /// With what lies behind all groups.
     glm::dvec4 over(const glm::dvec4& sky) const;
 
   private:
+    /// The sums are divided by the weights.
+    bool normalized() const;
+
     ConeSettings settings_;
     std::uint32_t covered_ = 0;
     glm::dvec4 sum_{0.0};

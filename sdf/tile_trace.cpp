@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 #include "sdf/cone_march.h"
 #include "sdf/tape_lanes.h"
@@ -14,23 +15,61 @@ namespace {
 /// As many as stay in a core's caches.
 constexpr std::size_t kRaysAtOnce = 1024;
 
-/// A ray on its way.
+/// A ray on its way: its Trace asks.
+template <class Trace>
 class RayAsker {
   public:
-    RayAsker(const FieldRay& ray, std::uint32_t index, const TraceSettings& settings)
-        : ray_(ray), trace_(ray_, settings), index_(index) {}
+    template <class... Settings>
+    RayAsker(const FieldRay& ray, std::uint32_t index, const Settings&... settings)
+        : ray_(ray), trace_(ray_, settings...), index_(index) {}
     bool asks() const { return trace_.asks(); }
-    double askedAt() const { return trace_.askedAt(); }
     glm::dvec3 askedPoint() const { return ray_.origin_world + ray_.direction_world * trace_.askedAt(); }
     void take(double value) { trace_.take(value); }
     double radius() const { return ray_.pixel_radius + ray_.pixel_slope * trace_.askedAt(); }
-    TraceHit hit(double scale) const { return trace_.hit(scale); }
+    const Trace& trace() const { return trace_; }
     std::uint32_t index() const { return index_; }
 
   private:
     FieldRay ray_;
-    RayTrace trace_;
+    Trace trace_;
     std::uint32_t index_;
+};
+
+/// One hit a ray.
+struct HitProgram {
+    using Asker = RayAsker<RayTrace>;
+    const TraceSettings& settings;
+    std::span<TraceHit> hits;
+
+    double marginPx() const { return 0.0; }
+    Asker start(const FieldRay& ray, std::uint32_t index) const { return {ray, index, settings}; }
+    void keepFar(const TileRay& ray) const {
+        hits[ray.index] = {};
+        hits[ray.index].t = ray.ray.t_max;
+    }
+    void keep(const Asker& asker, double scale, TileCounts& counts) const {
+        const TraceHit hit = asker.trace().hit(scale);
+        counts.evaluations += hit.evaluations;
+        counts.iterations += hit.iterations, counts.failed += hit.failed;
+        hits[asker.index()] = hit;
+    }
+};
+
+/// All that a ray's cone meets.
+struct ConeProgram {
+    using Asker = RayAsker<ConeTrace>;
+    const TraceSettings& settings;
+    const ConeSettings& cones;
+    std::span<ConeHits> hits;
+
+    double marginPx() const { return std::max(0.5 * (std::sqrt(2.0) * cones.coverage - 1.0), 0.0); }
+    Asker start(const FieldRay& ray, std::uint32_t index) const { return {ray, index, settings, cones}; }
+    void keepFar(const TileRay& ray) const { hits[ray.index] = {}; }
+    void keep(const Asker& asker, double, TileCounts& counts) const {
+        const ConeHits& met = asker.trace().hits();
+        counts.evaluations += met.evaluations, counts.iterations += met.evaluations;
+        hits[asker.index()] = met;
+    }
 };
 
 /// Those that ask in one cell, eight at a time; round by round, until none asks.
@@ -128,10 +167,15 @@ TileCounts& TileCounts::operator+=(const TileCounts& other) {
 }
 
 /// One top tile.
+template <class Program>
 class TileWork {
   public:
-    TileWork(const TileTracer& tracer, std::span<TraceHit> hits, TileCounts& counts)
-        : t_(tracer), scale_(tracer.sign_ / tracer.tape_.lipschitz), hits_(hits), counts_(counts) {}
+    TileWork(const TileTracer& tracer, const Program& program, TileCounts& counts)
+        : t_(tracer),
+          scale_(tracer.sign_ / tracer.tape_.lipschitz),
+          program_(program),
+          margin_px_(program.marginPx()),
+          counts_(counts) {}
 
     void run(int x, int y, std::span<TileRay> rays) {
         std::vector<Tile> tiles{{x, y, t_.sides_.top_px, rays, t_.grid_.t_min}};
@@ -148,13 +192,17 @@ class TileWork {
     }
 
   private:
+    using Asker = typename Program::Asker;
     struct Tile {
         int x, y, side;
         std::span<TileRay> rays;
         double t_start;
     };
 
-    Beam beamOf(int x, int y, int side) const { return t_.grid_.beam({x, y}, {x + side, y + side}); }
+    Beam beamOf(int x, int y, int side) const {
+        return t_.grid_.beam({x - margin_px_, y - margin_px_},
+                             {x + side + margin_px_, y + side + margin_px_});
+    }
     /// How narrow cones get does not depend on which rays are asked for: a crop has the whole's bits.
     int leastSide() const {
         return t_.settings_.prepass ? std::min(t_.sides_.cone_px, t_.sides_.leaf_px) : t_.sides_.leaf_px;
@@ -178,11 +226,7 @@ class TileWork {
     }
 
     void leaveOut(Tile& tile) {
-        for (const TileRay& ray : tile.rays) {
-            TraceHit far;
-            far.t = ray.ray.t_max;
-            hits_[ray.index] = far;
-        }
+        for (const TileRay& ray : tile.rays) program_.keepFar(ray);
         counts_.rays += tile.rays.size(), ++counts_.empty_tiles;
         tile.rays = {};
     }
@@ -203,33 +247,30 @@ class TileWork {
     }
 
     void traceRays(const std::vector<Tile>& tiles) {
-        std::vector<RayAsker> askers;
-        LaneQueue<RayAsker> queue(t_.cells_, scale_, counts_);
+        std::vector<Asker> askers;
+        LaneQueue<Asker> queue(t_.cells_, scale_, counts_);
         for (const Tile& tile : tiles) {
             for (const TileRay& ray : tile.rays) {
                 FieldRay shorter = ray.ray;
                 shorter.t_min = std::max(shorter.t_min, tile.t_start);
-                askers.emplace_back(shorter, ray.index, t_.settings_);
+                askers.push_back(program_.start(shorter, ray.index));
             }
             if (askers.size() >= kRaysAtOnce) finish(queue, askers);
         }
         finish(queue, askers);
     }
 
-    void finish(LaneQueue<RayAsker>& queue, std::vector<RayAsker>& askers) {
+    void finish(LaneQueue<Asker>& queue, std::vector<Asker>& askers) {
         queue.serve(askers);
-        for (const RayAsker& asker : askers) {
-            const TraceHit hit = asker.hit(1.0 / scale_);
-            counts_.rays += 1, counts_.evaluations += hit.evaluations;
-            counts_.iterations += hit.iterations, counts_.failed += hit.failed;
-            hits_[asker.index()] = hit;
-        }
+        for (const Asker& asker : askers) program_.keep(asker, 1.0 / scale_, counts_);
+        counts_.rays += askers.size();
         askers.clear();
     }
 
     const TileTracer& t_;
     double scale_;
-    std::span<TraceHit> hits_;
+    const Program& program_;
+    double margin_px_;
     TileCounts& counts_;
 };
 
@@ -245,7 +286,14 @@ TileTracer::TileTracer(const Tape& tape, const RayGrid& grid, const TraceSetting
 
 void TileTracer::trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                        TileCounts& counts) const {
-    TileWork(*this, hits, counts).run(x_px, y_px, rays);
+    const HitProgram program{settings_, hits};
+    TileWork(*this, program, counts).run(x_px, y_px, rays);
+}
+
+void TileTracer::traceCones(int x_px, int y_px, std::vector<TileRay>& rays, const ConeSettings& cones,
+                            std::span<ConeHits> hits, TileCounts& counts) const {
+    const ConeProgram program{settings_, cones, hits};
+    TileWork(*this, program, counts).run(x_px, y_px, rays);
 }
 
 }  // namespace edgewise::sdf

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sdf/cell_tapes.h"
+#include "sdf/cone_trace.h"
 #include "sdf/ray_grid.h"
 #include "sdf/sphere_trace.h"
 
@@ -47,8 +48,12 @@ class TileTracer {
     /// the rays.
     void trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span<TraceHit> hits,
                TileCounts& counts) const;
+    /// The same of the cones around the rays.
+    void traceCones(int x_px, int y_px, std::vector<TileRay>& rays, const ConeSettings& cones,
+                    std::span<ConeHits> hits, TileCounts& counts) const;
 
   private:
+    template <class Program>
     friend class TileWork;
     const Tape& tape_;
     const RayGrid& grid_;

@@ -36,7 +36,7 @@ void FieldAov::pixel(int x, int y, const FieldSamples& samples, std::size_t i, I
     if (in_.options.aovs.contains(Aov::kIndex)) *out = samples.surface[i];
 }
 
-void traceFieldAovs(const MethodInput& in, FieldTracerMaker make, ImageBuffer& image) {
+void traceFieldAovs(const MethodInput& in, const FieldTracerMaker& make, ImageBuffer& image) {
     const FieldAov aov(in);
     if (!aov.active()) return;
     aov.begin(image);

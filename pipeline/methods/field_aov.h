@@ -21,6 +21,6 @@ class FieldAov {
 };
 
 /// Those of the whole crop, for methods whose own rays lie elsewhere. Nothing without --aov.
-void traceFieldAovs(const MethodInput& in, FieldTracerMaker make, ImageBuffer& image);
+void traceFieldAovs(const MethodInput& in, const FieldTracerMaker& make, ImageBuffer& image);
 
 }  // namespace edgewise

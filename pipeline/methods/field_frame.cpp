@@ -29,7 +29,7 @@ PixelBox within(const PixelBox& box, const Film& film) {
 /// A picture in bands of rows.
 class FieldFrame {
   public:
-    FieldFrame(const MethodInput& in, const FieldSettings& settings, FieldTracerMaker make)
+    FieldFrame(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make)
         : in_(in), tracer_(make(in, settings)), aov_(in), pictures_(in.options.dump_dir, in.film.crop) {
         result_.image = ImageBuffer(in.film.crop);
         aov_.begin(result_.image);
@@ -93,7 +93,7 @@ class FieldFrame {
             if (window.pixels.contains(i, j)) spread.add(samples.color[at(i, j)]);
         const std::size_t pixel = result_.image.index(x, y);
         result_.image.rgba[pixel] = samples.color[at(x, y)];
-        result_.image.edge[pixel] = spread.edge();
+        result_.image.edge[pixel] = samples.mixed.empty() ? spread.edge() : samples.mixed[at(x, y)];
         if (aov_.active()) aov_.pixel(x, y, samples, at(x, y), result_.image);
     }
 
@@ -146,12 +146,12 @@ class FieldFrame {
 
 }  // namespace
 
-MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, FieldTracerMaker make) {
+MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make) {
     return FieldFrame(in, settings, make).pixels();
 }
 
 MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
-                           FieldTracerMaker make) {
+                           const FieldTracerMaker& make) {
     return FieldFrame(in, settings, make).filtered(per_side);
 }
 

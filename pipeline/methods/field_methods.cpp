@@ -4,6 +4,7 @@
 
 #include "pipeline/device_error.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/cone_tracer.h"
 #include "pipeline/methods/field_frame.h"
 #include "pipeline/methods/post_process.h"
 #include "pipeline/methods/registry.h"
@@ -14,10 +15,10 @@ namespace {
 
 #ifdef EDGEWISE_HAS_VULKAN
 constexpr bool kHasVulkan = true;
-constexpr FieldTracerMaker kVulkanTracer = makeVulkanFieldTracer;
+constexpr auto kVulkanTracer = makeVulkanFieldTracer;
 #else
 constexpr bool kHasVulkan = false;
-constexpr FieldTracerMaker kVulkanTracer = nullptr;
+constexpr decltype(&makeCpuFieldTracer) kVulkanTracer = nullptr;
 #endif
 
 sdf::Relaxation relaxationOf(const std::string& name) {
@@ -64,29 +65,54 @@ MethodResult onVulkan(const MethodEntry& entry, const MethodSpec& spec, const Me
 }
 
 MethodResult filteredPicture(const PostProcess& process, const MethodSpec& spec, const MethodInput& in,
-                             FieldTracerMaker make) {
+                             const FieldTracerMaker& make) {
     return runOnPicture(process, in, [&](const MethodInput& whole) { return traceNone(spec, whole, make); });
+}
+
+sdf::ConeSettings conesOf(const MethodSpec& spec) {
+    sdf::ConeSettings cones;
+    cones.relaxed = spec.name == "ctss-r";
+    cones.coverage = spec.numberOf("coverage", cones.coverage);
+    cones.alpha = spec.numberOf("alpha", cones.alpha);
+    cones.four_by_eight = spec.parameter("mask", "6x6") == "4x8";
+    cones.uniform = spec.parameter("weights", "visibility") == "uniform";
+    cones.backtrace = spec.parameter("backtrace", "on") == "on";
+    cones.visible = static_cast<int>(spec.numberOf("visible", cones.visible));
+    cones.shade_at_once = spec.parameter("shade", "delayed") == "asap";
+    cones.normalize_sky = spec.parameter("sky", "mask") == "normalize";
+    return cones;
 }
 
 }  // namespace
 
-MethodResult traceNone(const MethodSpec&, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceNone(const MethodSpec&, const MethodInput& in, const FieldTracerMaker& make) {
     return tracePixels(in, {}, make);
 }
 
-MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     return tracePixels(in, settingsOf(spec), make);
 }
 
-MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     return traceFiltered(in, {}, *spec.number, make);
 }
 
-MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
+    const int per_side = spec.composed.empty() ? 1 : *spec.composed.front().number;
+    const Scene scene = sceneOfCones(in);
+    const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
+    FieldSettings settings;
+    settings.cones = conesOf(spec);
+    settings.cones->coverage /= per_side;
+    if (per_side == 1) return tracePixels(all, settings, coneTracerMaker(make));
+    return traceFiltered(all, settings, per_side, coneTracerMaker(make));
+}
+
+MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     return filteredPicture(makeFxaa(spec), spec, in, make);
 }
 
-MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     return filteredPicture(makeSmaa(spec), spec, in, make);
 }
 

@@ -38,7 +38,7 @@ class LottesPicture {
         if (in.options.dump_dir) deviation_ = ImageBuffer(in.film.crop);
     }
 
-    MethodResult made(FieldTracerMaker make) {
+    MethodResult made(const FieldTracerMaker& make) {
         const PixelBox& crop = in_.film.crop;
         in_.progress.stage("lottes", static_cast<std::size_t>(crop.height()));
         const double fit =
@@ -115,7 +115,7 @@ class LottesPicture {
 
 }  // namespace
 
-MethodResult traceLottes(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult traceLottes(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     requireTree(spec.name, in.scene);
     return LottesPicture(in, settingsOf(spec)).made(make);
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -125,7 +126,8 @@ std::vector<std::string> describeMethods();
 class FieldTracer;
 struct FieldSettings;
 /// What traces an SDF scene (field_tracer.h): the CPU's maker or Vulkan's.
-using FieldTracerMaker = std::unique_ptr<FieldTracer> (*)(const MethodInput&, const FieldSettings&);
+using FieldTracerMaker =
+    std::function<std::unique_ptr<FieldTracer>(const MethodInput&, const FieldSettings&)>;
 
 /// Numbers that a parameter may be, ends included.
 struct NumberRange {
@@ -142,6 +144,7 @@ struct MethodEntry {
     int smallest = 1, largest = 64;  ///< of the number
     bool own_box = false;            ///< takes no --filter
     bool needs_triangles = false;    ///< SDF scenes are refused
+    std::string composes_with = {};  ///< name+THIS:K; empty: it stands alone
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>
         choices;                                     ///< parameter -> what it may be; device is added to all
@@ -150,7 +153,7 @@ struct MethodEntry {
     MethodResult (*run_vulkan)(const MethodSpec&,
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone
     /// On SDF scenes; nullptr: it needs triangles.
-    MethodResult (*run_field)(const MethodSpec&, const MethodInput&, FieldTracerMaker) = nullptr;
+    MethodResult (*run_field)(const MethodSpec&, const MethodInput&, const FieldTracerMaker&) = nullptr;
     bool field_on_cpu = false;  ///< run_field makes no use of a device's tracer
 };
 

@@ -63,7 +63,7 @@ class PathPicture {
 
 }  // namespace
 
-MethodResult tracePath(const MethodSpec& spec, const MethodInput& in, FieldTracerMaker make) {
+MethodResult tracePath(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     MethodResult result;
     Stopwatch watch;
     const PathPicture picture(in, requireTree(spec.name, in.scene), *spec.number);

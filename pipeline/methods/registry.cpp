@@ -147,6 +147,24 @@ std::string describe(const MethodEntry& entry) {
 
 }  // namespace
 
+namespace {
+
+MethodEntry coneEntry(const std::string& name, const std::string& summary) {
+    return {.name = name,
+            .summary = summary,
+            .own_box = true,
+            .composes_with = "ssaa",
+            .choices = {{"mask", {"6x6", "4x8"}},
+                        {"weights", {"visibility", "uniform"}},
+                        {"backtrace", kSwitch},
+                        {"shade", {"delayed", "asap"}},
+                        {"sky", {"mask", "normalize"}}},
+            .ranges = {{"coverage", {0.1, 16}}, {"alpha", {0.01, 1}}, {"visible", {1, 32, true}}},
+            .run_field = traceCtss};
+}
+
+}  // namespace
+
 const std::vector<MethodEntry>& methodRegistry() {
     static const std::vector<MethodEntry> registry{
         {.name = "none",
@@ -216,6 +234,8 @@ const std::vector<MethodEntry>& methodRegistry() {
                     {"threshold", {1e-6, 1}},
                     {"steps", {1, 60000, true}}},
          .run_field = traceSphere},
+        coneEntry("ctss", "SDF: cone-traced supersampling"),
+        coneEntry("ctss-r", "SDF: cone-traced supersampling that ends at the ray's own hit"),
         {.name = "lottes",
          .summary = "SDF: one jittered ray a pixel and frame, coverage, 11-ray reconstruction, grain",
          .own_box = true,
@@ -267,7 +287,8 @@ MethodSpec parseMethod(std::string_view typed) {
 }
 
 bool takesFilter(const MethodSpec& spec) {
-    return !requireMethod(spec.typed, spec.name).own_box;
+    // What is composed with samples is filtered like them.
+    return !spec.composed.empty() || !requireMethod(spec.typed, spec.name).own_box;
 }
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
@@ -292,8 +313,10 @@ MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const
 
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
-    if (!spec.composed.empty())
-        fail(spec.typed, fmt::format("'{}' does not compose with other methods", spec.name));
+    for (const MethodSpec& other : spec.composed)
+        if (other.name != entry.composes_with || spec.composed.size() > 1)
+            fail(spec.typed, fmt::format("'{}' does not compose with {}", spec.name,
+                                         entry.composes_with.empty() ? "other methods" : other.typed));
     if (input.scene.field) return runOnField(entry, spec, input);
     if (!entry.run) fail(spec.typed, "traces SDF scenes, and this one is of triangles");
     const DeviceDecision decision = decideDevice(spec, input.options);

@@ -27,13 +27,14 @@ MethodResult runSsaa(const MethodSpec& spec, const MethodInput& input);
 MethodResult runSsaaVulkan(const MethodSpec& spec, const MethodInput& input);  ///< with Vulkan
 
 // On SDF scenes.
-MethodResult traceNone(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult traceLottes(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult tracePath(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult traceSphere(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
-MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& input, FieldTracerMaker make);
+MethodResult traceNone(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceLottes(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult tracePath(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceSphere(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceCtss(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 /// The same with the device that suits the method and the scene.
 MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input);
 

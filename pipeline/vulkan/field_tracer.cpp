@@ -65,6 +65,16 @@ class VulkanFieldTracer : public FieldTracer {
         return withDeviceErrors([&] { return traceBands(window); });
     }
 
+    FieldCones traceCones(const FieldWindow&) override { throw DeviceError("cones are traced on the CPU"); }
+
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::vector<sdf::SurfaceHit> hits) override {
+        return withDeviceErrors(
+            [&] { return shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_); });
+    }
+
+    RayBatches& batches() override { return *batches_; }
+
     void report(MethodResult& result) const override {
         result.device = device_->traits().name;
         result.setup_seconds += setup_seconds_;

@@ -1,0 +1,172 @@
+#include "pipeline/methods/cone_tracer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "pipeline/field_rays.h"
+#include "pipeline/methods/stopwatch.h"
+#include "sdf/field_of_all.h"
+
+namespace edgewise {
+namespace {
+
+/// Samples whose groups are held at once.
+constexpr std::size_t kSamplesAtOnce = std::size_t{1} << 17;
+
+class ConeTracer : public FieldTracer {
+  public:
+    ConeTracer(const MethodInput& in, const FieldSettings& settings, std::unique_ptr<FieldTracer> device)
+        : settings_(*settings.cones),
+          grid_(rayGrid(in.camera, in.film, 1.0)),
+          background_(in.options.background, 0.0),
+          device_(std::move(device)) {}
+
+    /// By parts that end at multiples of 64 rows, where tiles do.
+    FieldSamples trace(const FieldWindow& window) override {
+        FieldSamples out = sized(window.samples());
+        const std::size_t row = window.stride() * static_cast<std::size_t>(window.per_side);
+        const int rows = static_cast<int>(std::max<std::size_t>(kSamplesAtOnce / row / 64, 1)) * 64;
+        for (int y = window.pixels.y0; y < window.pixels.y1;) {
+            const int end = std::min((y + rows) & ~63, window.pixels.y1);
+            tracePart(window, y, end, out);
+            y = end;
+        }
+        return out;
+    }
+    FieldCones traceCones(const FieldWindow& window) override { return device_->traceCones(window); }
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::vector<sdf::SurfaceHit> hits) override {
+        return device_->shade(rays, std::move(hits));
+    }
+    RayBatches& batches() override { return device_->batches(); }
+
+    void report(MethodResult& result) const override {
+        device_->report(result);
+        result.stages.insert(result.stages.end(), stages_.begin(), stages_.end());
+        result.counts["groups"] = groups_, result.counts["groups_seen"] = seen_;
+        result.counts["pixels_mixed"] = mixed_;
+    }
+
+  private:
+    /// Groups of which something is seen, and their bits.
+    struct Seen {
+        std::vector<std::uint32_t> bits;  ///< by group
+        std::vector<std::uint32_t> group;
+        std::vector<sdf::TravellingRay> rays;
+        std::vector<sdf::SurfaceHit> surfaces;
+    };
+
+    static FieldSamples sized(std::size_t count) {
+        FieldSamples out;
+        out.color.resize(count), out.depth.resize(count, HUGE_VAL), out.normal.resize(count, glm::vec3(0.0f));
+        out.surface.resize(count, kNone), out.residual.resize(count);
+        out.evaluations.resize(count), out.iterations.resize(count), out.mixed.resize(count);
+        return out;
+    }
+
+    void tracePart(const FieldWindow& window, int y0, int y1, FieldSamples& out) {
+        FieldWindow part = window;
+        part.pixels.y0 = y0, part.pixels.y1 = y1;
+        const std::size_t before =
+            static_cast<std::size_t>(y0 - window.pixels.y0) * window.per_side * window.stride();
+        if (!part.positions_px.empty())
+            part.positions_px.assign(
+                window.positions_px.begin() + static_cast<std::ptrdiff_t>(before),
+                window.positions_px.begin() + static_cast<std::ptrdiff_t>(before + part.samples()));
+        const FieldCones cones = device_->traceCones(part);
+        watch_.lap();
+        Seen seen = seenOf(cones);
+        watch_.book("masks", stages_);
+        const std::vector<glm::dvec4> colors = device_->shade(seen.rays, std::move(seen.surfaces));
+        watch_.lap();
+        std::vector<glm::dvec4> by_group(cones.groups.size());
+        for (std::size_t i = 0; i < seen.group.size(); ++i) by_group[seen.group[i]] = colors[i];
+        tbb::parallel_for(std::size_t(0), cones.samples(),
+                          [&](std::size_t i) { blend(cones, seen.bits, by_group, i, before + i, out); });
+        groups_ += cones.groups.size(), seen_ += seen.group.size();
+        for (std::size_t i = 0; i < cones.samples(); ++i) mixed_ += out.mixed[before + i];
+        watch_.book("blend", stages_);
+    }
+
+    Seen seenOf(const FieldCones& cones) const {
+        Seen seen;
+        seen.bits.resize(cones.groups.size());
+        tbb::parallel_for(std::size_t(0), cones.samples(),
+                          [&](std::size_t i) { maskSample(cones, i, seen.bits); });
+        for (std::size_t i = 0; i < cones.samples(); ++i)
+            for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
+                if (seen.bits[g] == 0) continue;
+                seen.group.push_back(g);
+                seen.rays.push_back(cones.rays[i]);
+                seen.surfaces.push_back(cones.surfaces[g]);
+            }
+        return seen;
+    }
+
+    void maskSample(const FieldCones& cones, std::size_t i, std::vector<std::uint32_t>& bits) const {
+        sdf::ConeBlend blend(settings_);
+        const glm::dvec3& ahead = cones.rays[i].ray.direction_world;
+        const glm::dvec3 right =
+            glm::normalize(grid_.right_world - ahead * glm::dot(grid_.right_world, ahead));
+        const glm::dvec3 down = glm::normalize(grid_.down_world - ahead * glm::dot(grid_.down_world, ahead));
+        for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1] && blend.open(); ++g) {
+            const glm::dvec3& normal = cones.surfaces[g].normal_world;
+            bits[g] = blend.uncovered(sdf::groupMask(cones.groups[g], normal, right, down, settings_));
+            blend.add(bits[g], glm::dvec4(0.0));
+        }
+    }
+
+    void blend(const FieldCones& cones, const std::vector<std::uint32_t>& bits,
+               const std::vector<glm::dvec4>& colors, std::size_t i, std::size_t to,
+               FieldSamples& out) const {
+        sdf::ConeBlend blend(settings_);
+        int colours = 0;
+        for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
+            if (bits[g] == 0) continue;
+            blend.add(bits[g], colors[g]);
+            ++colours;
+        }
+        out.color[to] = blend.over(background_);
+        out.mixed[to] = colours + (blend.skyShows() ? 1 : 0) > 1;
+        out.evaluations[to] = out.iterations[to] = cones.evaluations[i];
+        takeCentre(cones, i, to, out);
+    }
+
+    /// Where the ray itself meets a surface.
+    static void takeCentre(const FieldCones& cones, std::size_t i, std::size_t to, FieldSamples& out) {
+        for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
+            if (!cones.groups[g].hard) continue;
+            const sdf::SurfaceHit& hit = cones.surfaces[g];
+            const bool away = glm::dot(hit.normal_world, cones.rays[i].ray.direction_world) > 0.0;
+            out.depth[to] = hit.t, out.surface[to] = hit.material;
+            out.normal[to] = glm::vec3(away ? -hit.normal_world : hit.normal_world);
+            return;
+        }
+    }
+
+    const sdf::ConeSettings settings_;
+    const sdf::RayGrid grid_;
+    const glm::dvec4 background_;
+    std::unique_ptr<FieldTracer> device_;
+    Stopwatch watch_;
+    std::vector<StageTime> stages_;
+    std::uint64_t groups_ = 0, seen_ = 0, mixed_ = 0;
+};
+
+}  // namespace
+
+FieldTracerMaker coneTracerMaker(const FieldTracerMaker& make) {
+    return [make](const MethodInput& in, const FieldSettings& settings) -> std::unique_ptr<FieldTracer> {
+        return std::make_unique<ConeTracer>(in, settings, make(in, settings));
+    };
+}
+
+Scene sceneOfCones(const MethodInput& input) {
+    Scene scene = input.scene;
+    const glm::dvec3 eye(glm::inverse(input.camera.camera_from_world)[3]);
+    scene.field = std::make_shared<const sdf::FieldScene>(sdf::fieldOfAll(*scene.field, eye));
+    return scene;
+}
+
+}  // namespace edgewise
