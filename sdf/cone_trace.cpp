@@ -46,7 +46,8 @@ void ConeTrace::keepGroup() {
     const int at = std::min(hits_.count, ConeHits::kMostGroups - 1);
     // What fills the cone fills the mask, whose points may lie outside of the cone.
     const bool fills = state_.end == cones::kConeFull && state_.least <= -1.0;
-    hits_.groups[at] = {cones::coneSampleAt(state_), fills ? -2.0 : state_.least, state_.hard};
+    hits_.groups[at] = {cones::coneSampleAt(state_), state_.entry_t, fills ? -2.0 : state_.least,
+                        state_.hard};
     hits_.count = at + 1;
 }
 

@@ -67,10 +67,10 @@ class VulkanFieldTracer : public FieldTracer {
 
     FieldCones traceCones(const FieldWindow&) override { throw DeviceError("cones are traced on the CPU"); }
 
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                  std::vector<sdf::SurfaceHit> hits) override {
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+                                  std::vector<std::uint32_t>* sights) override {
         return withDeviceErrors(
-            [&] { return shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_); });
+            [&] { return shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_, sights); });
     }
 
     RayBatches& batches() override { return *batches_; }
