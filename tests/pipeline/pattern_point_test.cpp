@@ -112,8 +112,10 @@ TEST(PatternPoint, StripesAcrossTheNormalShowOneColour) {
     tree.root = tree.add(Kind::kPlane, {0, 1, 0, 0}, {}, 0);
     // A stripe and its gap are a cell wide together: -1 is the uppermost below 0, and odd.
     const ImageBuffer image = picture.made("none").image;
+    int wrong = 0;
     for (int y = 40; y < 72; ++y)
-        for (int x = 0; x < 96; ++x) EXPECT_EQ(image.rgba[image.index(x, y)].r, 0.25) << x << " " << y;
+        for (int x = 0; x < 96; ++x) wrong += image.rgba[image.index(x, y)].r != 0.25;
+    EXPECT_EQ(wrong, 0);
 }
 
 }  // namespace
