@@ -12,6 +12,21 @@
 
 namespace edgewise::figures {
 
+/// What a pixel is whose ray ends elsewhere than classic tracing's.
+enum class HitChange : unsigned char {
+    kSilhouette,  ///< one of the eight pixels around it shows the other surface: an outline runs through it
+    kGrazing,     ///< none does, but the other depth lies between theirs: depth changes so fast from pixel to
+                  ///< pixel
+    kAlone        ///< neither
+};
+const char* nameOf(HitChange kind);
+
+struct ChangedHit {
+    int x = 0, y = 0;
+    double classic_depth = 0.0, depth = 0.0;  ///< along the ray; infinite: nothing
+    HitChange kind = HitChange::kAlone;
+};
+
 /// Rays of one picture under one setting. Times are of tracing, medians over the runs.
 struct TraceRun {
     std::string setting;
@@ -26,6 +41,7 @@ struct TracedScene {
     int width = 0, height = 0;
     std::uint64_t rays = 0;
     std::vector<TraceRun> runs;       ///< the first is classic
+    std::vector<ChangedHit> changed;  ///< of the last setting against classic
     std::optional<double> published;  ///< Keinert's ratio of times, on a scene of his own of that kind
     std::string remark;
     double ratioOf(const TraceRun& run) const {
@@ -60,6 +76,16 @@ struct PruningCount {
     std::uint64_t differing = 0;                                 ///< pixels whose depth differs in any bit
 };
 
+/// Pictures that are to be seen side by side.
+struct PictureRow {
+    std::string title, words;
+    struct Picture {
+        FigureFile file;  ///< PNG
+        std::string caption;
+    };
+    std::vector<Picture> pictures;
+};
+
 struct SphereTracing {
     bool quick = false;
     int runs = 1;
@@ -68,7 +94,7 @@ struct SphereTracing {
     std::vector<CandidateCount> candidates;
     std::vector<JumpCount> jumps;
     std::vector<PruningCount> pruning;
-    std::vector<FigureFile> pictures;  ///< PNG
+    std::vector<PictureRow> pictures;
     std::vector<std::string> notes;
 };
 

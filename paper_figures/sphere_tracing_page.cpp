@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,8 @@
 
 namespace edgewise::figures {
 namespace {
+
+constexpr HitChange kHitChanges[]{HitChange::kSilhouette, HitChange::kGrazing, HitChange::kAlone};
 
 constexpr const char* kStyle = R"css(
 .pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px}
@@ -106,17 +109,55 @@ std::string pruningTable(const SphereTracing& found) {
         rows);
 }
 
-std::string pictures(const SphereTracing& found) {
-    std::string out;
-    for (const FigureFile& picture : found.pictures)
+std::string pictures(const PictureRow& row) {
+    std::string out = fmt::format("<h3>{}</h3><p class='under'>{}</p><div class='pictures'>",
+                                  escapedHtml(row.title), escapedHtml(row.words));
+    for (const PictureRow::Picture& picture : row.pictures) {
+        const std::string& bytes = picture.file.bytes;
         out += fmt::format(
             "<figure class='card'><img alt='{0}' "
             "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-            escapedHtml(picture.name),
-            compare::base64(
-                {reinterpret_cast<const unsigned char*>(picture.bytes.data()), picture.bytes.size()}));
-    return out.empty() ? out : "<h2>Pictures</h2><div class='pictures'>" + out + "</div>";
+            escapedHtml(picture.caption),
+            compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
+    }
+    return out + "</div>";
 }
+
+std::string pictures(const SphereTracing& found) {
+    std::string out;
+    for (const PictureRow& row : found.pictures) out += pictures(row);
+    return out.empty() ? out : "<h2>Pictures</h2>" + out;
+}
+
+std::size_t countOf(const TracedScene& scene, HitChange kind) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(scene.changed, [&](const ChangedHit& hit) { return hit.kind == kind; }));
+}
+
+/// Of the last setting, which has all that is on by default.
+std::string changesTable(const SphereTracing& found) {
+    std::string rows;
+    for (const TracedScene& scene : found.scenes) {
+        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(scene.name),
+                            escapedHtml(scene.runs.back().setting), scene.changed.size());
+        for (const HitChange kind : kHitChanges) rows += fmt::format("<td>{}</td>", countOf(scene, kind));
+        rows += number(100.0 * double(scene.changed.size()) / double(scene.rays), "{:.4f}") + "</tr>\n";
+    }
+    return table(
+        "<th>scene</th><th></th><th>other hits</th><th>silhouette</th><th>grazing</th><th>alone</th><th>of "
+        "all "
+        "pixels, %</th>",
+        rows);
+}
+
+constexpr const char* kChangeWords =
+    "<p class='under'>Silhouette: one of the eight pixels around it shows, by classic tracing, the surface "
+    "that "
+    "this pixel's "
+    "ray now ends on. Grazing: none does, but the new depth lies between theirs. Alone: neither. "
+    "results.json "
+    "lists every "
+    "pixel with both depths.</p>\n";
 
 std::string notes(const SphereTracing& found) {
     std::string out;
@@ -135,7 +176,28 @@ constexpr const char* kWords =
     "same kinds and "
     "are not made to match.</p>\n";
 
+/// [x, y, classic's depth, the last setting's, kind]; null: nothing is hit.
+nlohmann::ordered_json changesJson(const TracedScene& scene) {
+    using Json = nlohmann::ordered_json;
+    const auto depthJson = [](double depth) { return std::isfinite(depth) ? Json(depth) : Json(); };
+    Json list = Json::array();
+    for (const ChangedHit& hit : scene.changed)
+        list.push_back({hit.x, hit.y, depthJson(hit.classic_depth), depthJson(hit.depth), nameOf(hit.kind)});
+    return list;
+}
+
 }  // namespace
+
+const char* nameOf(HitChange kind) {
+    switch (kind) {
+        case HitChange::kSilhouette:
+            return "silhouette";
+        case HitChange::kGrazing:
+            return "grazing";
+        default:
+            return "alone";
+    }
+}
 
 double geometricMeanRatio(const SphereTracing& found, const std::string& setting) {
     double sum = 0.0;
@@ -157,7 +219,8 @@ std::string sphereTracingHtml(const SphereTracing& found) {
                compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "",
                found.runs, found.runs == 1 ? "" : "s") +
            "<h2>Relaxation and cones: all scenes</h2>" + meansTable(found) + "<h2>Scene by scene</h2>" +
-           runsTable(found.scenes) + kWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
+           runsTable(found.scenes) + kWords + "<h2>Other hits, pixel by pixel</h2>" + changesTable(found) +
+           kChangeWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
            "<h2>Out of steps: which point is the hit</h2>" + candidatesTable(found) +
            "<h2>Discontinuity reduction</h2>" + jumpsTable(found) + "<h2>Pruning</h2>" + pruningTable(found) +
            pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript +
@@ -180,7 +243,8 @@ std::string sphereTracingJson(const SphereTracing& found) {
                             {"size", {scene.width, scene.height}},
                             {"rays", scene.rays},
                             {"published", scene.published ? Json(*scene.published) : Json()},
-                            {"runs", runs}});
+                            {"runs", runs},
+                            {"other_hits", changesJson(scene)}});
         }
         return list;
     };
