@@ -89,6 +89,7 @@ struct PictureRow {
 struct SphereTracing {
     bool quick = false;
     int runs = 1;
+    double seconds = 0.0;  ///< that all of it took
     std::vector<TracedScene> scenes;
     std::vector<TracedScene> convex;  ///< with the shortcut and without
     std::vector<CandidateCount> candidates;

@@ -9,6 +9,7 @@
 #include "paper_figures/changed_hits.h"
 #include "paper_figures/sphere_tracing_pictures.h"
 #include "pipeline/field_shading.h"
+#include "pipeline/methods/stopwatch.h"
 #include "sdf/evaluate.h"
 
 namespace edgewise::figures {
@@ -183,6 +184,7 @@ PruningCount measurePruning(const std::string& name, const SphereTracingEffort& 
 SphereTracing measureSphereTracing(const SphereTracingEffort& effort, Progress& progress) {
     progress.stage("trace", effort.scenes.size() + 1 + effort.candidate_scenes.size() +
                                 effort.jump_scenes.size() + effort.pruning_scenes.size() + 1);
+    Stopwatch watch;
     SphereTracing found;
     found.quick = effort.quick, found.runs = effort.runs;
     for (const std::string& name : effort.scenes) {
@@ -199,6 +201,7 @@ SphereTracing measureSphereTracing(const SphereTracingEffort& effort, Progress& 
         found.pruning.push_back(measurePruning(name, effort, progress));
     found.pictures = sphereTracingPictures(effort, progress);
     progress.advance(1);
+    found.seconds = watch.lap();
     return found;
 }
 
