@@ -14,11 +14,14 @@ std::vector<double> depthsAround(const TracedView& view, const FieldSamples& sam
     return depths;
 }
 
-HitChange kindOf(const TracedView& view, const std::vector<double>& around, double after) {
-    if (std::ranges::any_of(around, [&](double depth) { return sameHit(view, depth, after); }))
-        return HitChange::kSilhouette;
+HitChange kindOf(const TracedView& view, const std::vector<double>& around, double before, double after) {
+    const auto shown = [&](double depth) {
+        return std::ranges::any_of(around, [&](double other) { return sameHit(view, other, depth); });
+    };
+    if (shown(after)) return HitChange::kSilhouette;
     const auto [least, most] = std::ranges::minmax(around);
-    return least <= after && after <= most ? HitChange::kGrazing : HitChange::kAlone;
+    if (least <= after && after <= most) return HitChange::kGrazing;
+    return shown(before) ? HitChange::kAlone : HitChange::kNarrow;
 }
 
 }  // namespace
@@ -30,7 +33,7 @@ std::vector<ChangedHit> changedHits(const TracedView& view, const FieldSamples& 
         for (int x = 0; x < view.film.width; ++x) {
             const double was = before.depth[view.index(x, y)], is = after.depth[view.index(x, y)];
             if (sameHit(view, was, is)) continue;
-            changed.push_back({x, y, was, is, kindOf(view, depthsAround(view, before, x, y), is)});
+            changed.push_back({x, y, was, is, kindOf(view, depthsAround(view, before, x, y), was, is)});
         }
     return changed;
 }

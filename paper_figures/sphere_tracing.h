@@ -17,7 +17,8 @@ enum class HitChange : unsigned char {
     kSilhouette,  ///< one of the eight pixels around it shows the other surface: an outline runs through it
     kGrazing,     ///< none does, but the other depth lies between theirs: depth changes so fast from pixel to
                   ///< pixel
-    kAlone        ///< neither
+    kNarrow,  ///< nor that, but none shows the classic surface either: a gap or a thing narrower than a pixel
+    kAlone    ///< none of these
 };
 const char* nameOf(HitChange kind);
 

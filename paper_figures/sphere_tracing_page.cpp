@@ -13,10 +13,11 @@
 namespace edgewise::figures {
 namespace {
 
-constexpr HitChange kHitChanges[]{HitChange::kSilhouette, HitChange::kGrazing, HitChange::kAlone};
+constexpr HitChange kHitChanges[]{HitChange::kSilhouette, HitChange::kGrazing, HitChange::kNarrow,
+                                  HitChange::kAlone};
 
 constexpr const char* kStyle = R"css(
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px}
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));gap:14px}
 .pictures figure{margin:0}
 .pictures img{width:100%;image-rendering:pixelated}
 .pictures figcaption{font-size:13px}
@@ -150,20 +151,19 @@ std::string changesTable(const SphereTracing& found) {
         rows += number(100.0 * double(scene.changed.size()) / double(scene.rays), "{:.4f}") + "</tr>\n";
     }
     return table(
-        "<th>scene</th><th></th><th>other hits</th><th>silhouette</th><th>grazing</th><th>alone</th><th>of "
+        "<th>scene</th><th></th><th>other "
+        "hits</th><th>silhouette</th><th>grazing</th><th>narrow</th><th>alone</th><th>of "
         "all "
         "pixels, %</th>",
         rows);
 }
 
 constexpr const char* kChangeWords =
-    "<p class='under'>Silhouette: one of the eight pixels around it shows, by classic tracing, the surface "
-    "that "
-    "this pixel's "
-    "ray now ends on. Grazing: none does, but the new depth lies between theirs. Alone: neither. "
-    "results.json "
-    "lists every "
-    "pixel with both depths.</p>\n";
+    "<p class='under'>Of the eight pixels around, by classic tracing. Silhouette: one shows the surface that "
+    "this "
+    "pixel's ray now ends on. Grazing: none does, but the new depth lies between theirs. Narrow: none shows "
+    "either surface, so the ray is in a gap, or on a thing, narrower than a pixel. Alone: none of these. "
+    "results.json lists every pixel with both depths.</p>\n";
 
 std::string notes(const SphereTracing& found) {
     std::string out;
@@ -200,6 +200,8 @@ const char* nameOf(HitChange kind) {
             return "silhouette";
         case HitChange::kGrazing:
             return "grazing";
+        case HitChange::kNarrow:
+            return "narrow";
         default:
             return "alone";
     }

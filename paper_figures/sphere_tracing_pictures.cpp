@@ -64,11 +64,11 @@ PictureRow iterations(const SphereTracingEffort& effort, Progress& progress) {
 PictureRow candidates(const SphereTracingEffort& effort, Progress& progress) {
     constexpr int kPaperSteps = 64, kAllSteps = 16384;
     const TracedView view("thin", effort.picture_width, effort.picture_height);
-    PictureRow row{
-        "Normals of thin things after 64 steps",
-        "As in Figure 8: half the normal and a half as red, green and blue; black is nothing. Floors "
-        "are green.",
-        {}};
+    PictureRow row{"Normals of thin things after 64 steps",
+                   "As in Figure 8: half the normal and a half as red, green and blue; black is nothing, and "
+                   "what is out of steps with no surface within half a pixel. Floors "
+                   "are green.",
+                   {}};
     const auto add = [&](const std::string& name, const std::string& caption, bool screen, int steps) {
         TraceSettings settings = settingsOf(Relaxation::kNone, false);
         settings.screen_candidate = screen, settings.most_steps = steps, settings.threshold = 1.0;
