@@ -134,6 +134,19 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         });
         return hits;
     }
+    std::vector<sdf::SurfaceHit> describe(std::span<const sdf::TravellingRay> rays,
+                                          std::span<const double> depths) override {
+        std::vector<sdf::SurfaceHit> hits(rays.size());
+        eachPart(rays.size(), 64, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                sdf::TraceHit hit;
+                hit.t = depths[i];
+                if (std::isfinite(hit.t)) hit.end = sdf::TraceEnd::kSurface;
+                hits[i] = tracer_.fieldHit(rays[i].ray, hit, rays[i].sign);
+            }
+        });
+        return hits;
+    }
     std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
         std::vector<char> hidden(rays.size());
         eachPart(rays.size(), 64, [&](std::size_t first, std::size_t last) {

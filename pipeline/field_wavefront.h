@@ -18,6 +18,9 @@ class RayBatches {
     virtual std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) = 0;
     /// Where each meets the scene, and no more; infinite where it meets nothing.
     virtual std::vector<double> depths(std::span<const sdf::TravellingRay> rays) = 0;
+    /// The hits of rays whose depths are known; infinite ones are misses.
+    virtual std::vector<sdf::SurfaceHit> describe(std::span<const sdf::TravellingRay> rays,
+                                                  std::span<const double> depths) = 0;
     virtual std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) = 0;
 };
 

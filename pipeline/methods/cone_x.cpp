@@ -147,13 +147,16 @@ class ConeXTracer : public FieldTracer {
 
     std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i) const {
         const sdf::SurfaceHit* own = rows.hitOf(i);
-        const CellPiece centre = pieceOf(own, rows.centreOf(i));
+        CellPiece centre = pieceOf(own, rows.centreOf(i));
         const double radius = rows.radiusOf(i);
         bool doubtful = rows.soft[i];
         std::vector<CellPiece> others;
         for (const std::size_t j : rows.around(i)) {
             const CellPiece other = pieceOf(rows.hitOf(j), rows.centreOf(j));
-            if (smoothlyOne(centre, other, std::max(radius, rows.radiusOf(j)))) continue;
+            if (smoothlyOne(centre, other, std::max(radius, rows.radiusOf(j)))) {
+                takeBend(centre, other);
+                continue;
+            }
             doubtful = true;
             others.push_back(other);
         }
@@ -235,23 +238,33 @@ class ConeXTracer : public FieldTracer {
         });
         std::vector<EdgeCell*> again;
         std::vector<sdf::TravellingRay> rays;
+        std::vector<double> depths;
         std::vector<int> samples;
         for (std::size_t i = 0; i < asked.size(); ++i) {
-            if (stranger[i] == EdgeCell::kUnknown) continue;
-            again.push_back(asked[i]), samples.push_back(stranger[i]);
-            rays.push_back(rayFrom(*asked[i], asked[i]->sampleAt(stranger[i])));
+            const int k = stranger[i];
+            if (k == EdgeCell::kUnknown) continue;
+            again.push_back(asked[i]), samples.push_back(k);
+            rays.push_back(rayFrom(*asked[i], asked[i]->sampleAt(k)));
+            depths.push_back(asked[i]->depths[k]);
         }
-        const std::vector<sdf::SurfaceHit> hits = device_->batches().nearest(rays);
-        edge_rays_ += rays.size();
+        const std::vector<sdf::SurfaceHit> hits = device_->batches().describe(rays, depths);
         for (std::size_t i = 0; i < again.size(); ++i) {
             EdgeCell& cell = *again[i];
             CellPiece piece = pieceOf(hits[i].hit ? &hits[i] : nullptr, cell.sampleAt(samples[i]));
             if (hits[i].hit) piece.hit = hits[i];
-            // The same ray, so the same depth, and its own plane: the sample has a name now.
             cell.depths[samples[i]] = hits[i].hit ? hits[i].t : HUGE_VAL;
-            cell.pieces.push_back(piece);
+            adopt(cell, piece);
         }
         asked = std::move(again);
+    }
+
+    /// A piece more; surfaces that it goes on from smoothly bend as it says.
+    void adopt(EdgeCell& cell, CellPiece& piece) const {
+        const double radius = piece.hit ? grid_.halfPixel() * (grid_.perspective ? piece.hit->t : 1.0) : 0.0;
+        for (CellPiece& known : cell.pieces)
+            if (!known.sky && smoothlyOne(known, piece, radius))
+                takeBend(known, piece), takeBend(piece, known);
+        cell.pieces.push_back(piece);
     }
 
     /// Everything that is shaded, and what came of it.
@@ -293,17 +306,20 @@ class ConeXTracer : public FieldTracer {
     void meetPieces(std::vector<EdgeCell>& cells) {
         const EdgeCells dividing(grid_, nullptr);
         std::vector<sdf::TravellingRay> rays;
+        std::vector<double> depths;
         std::vector<std::pair<EdgeCell*, std::size_t>> pieces;
         for (EdgeCell& cell : cells)
             for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
                 CellPiece& piece = cell.pieces[k];
                 if (piece.weight == 0.0 || piece.sky || piece.hit) continue;
-                piece.seen_px = dividing.placeOf(cell, static_cast<int>(k));
+                const int sample = dividing.sampleOf(cell, static_cast<int>(k));
+                if (sample == EdgeCell::kUnknown) continue;
+                piece.seen_px = cell.sampleAt(sample);
                 rays.push_back(rayFrom(cell, piece.seen_px));
+                depths.push_back(cell.depths[sample]);
                 pieces.emplace_back(&cell, k);
             }
-        const std::vector<sdf::SurfaceHit> hits = device_->batches().nearest(rays);
-        edge_rays_ += rays.size();
+        const std::vector<sdf::SurfaceHit> hits = device_->batches().describe(rays, depths);
         for (std::size_t i = 0; i < pieces.size(); ++i)
             if (hits[i].hit) pieces[i].first->pieces[pieces[i].second].hit = hits[i];
     }

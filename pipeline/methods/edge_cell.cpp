@@ -11,8 +11,8 @@ namespace {
 /// Of a pixel's radius. Hits lie up to an eighth of it before their surface, so two of one plane up to that
 /// apart.
 constexpr double kOnPlane = 0.25;
-/// Normals within 4 degrees are one surface's.
-constexpr double kSmoothCosine = 0.9976;
+/// Normals within 10 degrees may be one surface's.
+constexpr double kSmoothCosine = 0.985;
 /// What a sample may be on the wrong side of a line, in pixels: of hits' own inexactness.
 constexpr double kLineSlack = 1.0 / 16.0;
 
@@ -53,8 +53,16 @@ CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px) {
 
 bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius) {
     if (a.sky || b.sky) return a.sky == b.sky;
-    return a.material == b.material && glm::dot(a.n_world, b.n_world) >= kSmoothCosine &&
-           std::max(offPlane(a, b.p_world), offPlane(b, a.p_world)) <= kOnPlane * radius;
+    if (a.material != b.material || glm::dot(a.n_world, b.n_world) < kSmoothCosine) return false;
+    // An arc leaves its tangent by half of what its normal turns by, times its length.
+    const double arc = 0.5 * glm::distance(a.n_world, b.n_world) * glm::distance(a.p_world, b.p_world);
+    return std::max(offPlane(a, b.p_world), offPlane(b, a.p_world)) <= kOnPlane * radius + arc;
+}
+
+void takeBend(CellPiece& piece, const CellPiece& other) {
+    const double apart = glm::distance(piece.p_world, other.p_world);
+    if (!piece.sky && !other.sky && apart > 0.0)
+        piece.bend = std::max(piece.bend, glm::distance(piece.n_world, other.n_world) / apart);
 }
 
 glm::dvec2 EdgeCell::sampleAt(int i) const {
@@ -69,13 +77,15 @@ int EdgeCells::labelOf(const EdgeCell& cell, int i, double depth) const {
     const glm::dvec3 p =
         std::isfinite(depth) ? ray.origin_world + ray.direction_world * depth : glm::dvec3(0.0);
     int label = EdgeCell::kUnknown;
-    double least = kOnPlane * radiusAt(ray, depth);
+    double least = HUGE_VAL;
     for (int k = 0; k < static_cast<int>(cell.pieces.size()); ++k) {
         const CellPiece& piece = cell.pieces[k];
         if (piece.sky != !std::isfinite(depth)) continue;
         if (piece.sky) return k;
-        const double off = offPlane(piece, p);
-        if (off <= least) least = off, label = k;
+        const double off = offPlane(piece, p), apart = glm::distance(p, piece.p_world);
+        if (off > kOnPlane * radiusAt(ray, depth) + 0.5 * piece.bend * apart * apart || off >= least)
+            continue;
+        least = off, label = k;
     }
     return label;
 }
@@ -203,18 +213,19 @@ void EdgeCells::divideByCount(EdgeCell& cell) const {
     cell.resolved = true;
 }
 
-/// Of its samples the one nearest to their mean.
-glm::dvec2 EdgeCells::placeOf(const EdgeCell& cell, int piece) const {
+int EdgeCells::sampleOf(const EdgeCell& cell, int piece) const {
     glm::dvec2 sum(0.0);
     int count = 0;
     for (int i = 0; i < cell.samples; ++i)
         if (cell.labels[i] == piece) sum += cell.sampleAt(i), ++count;
-    if (count == 0) return cell.pieces[piece].seen_px;
-    const glm::dvec2 mean = sum / static_cast<double>(count);
-    glm::dvec2 best(HUGE_VAL);
-    for (int i = 0; i < cell.samples; ++i)
-        if (cell.labels[i] == piece && glm::distance(cell.sampleAt(i), mean) < glm::distance(best, mean))
-            best = cell.sampleAt(i);
+    int best = EdgeCell::kUnknown;
+    for (int i = 0; i < cell.samples; ++i) {
+        if (cell.labels[i] != piece) continue;
+        const auto off = [&](int k) {
+            return glm::distance(cell.sampleAt(k), sum / static_cast<double>(count));
+        };
+        if (best == EdgeCell::kUnknown || off(i) < off(best)) best = i;
+    }
     return best;
 }
 

@@ -17,7 +17,9 @@ struct CellPiece {
     bool sky = true;
     glm::dvec3 p_world{0.0}, n_world{0.0};
     std::uint32_t material = 0;
-    glm::dvec2 seen_px{0.0};             ///< where on the film it was met
+    glm::dvec2 seen_px{0.0};  ///< where on the film it was met
+    double bend =
+        0.0;  ///< the change of the normal per unit of length, as far as neighbours on the surface tell
     std::optional<sdf::SurfaceHit> hit;  ///< met within this pixel, along the ray through seen_px
     double weight = 0.0;
 };
@@ -27,6 +29,8 @@ CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px);
 /// Whether both are parts of one smooth surface: their planes are one within a quarter of the pixel's radius
 /// there.
 bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius);
+/// A surface that bends from the one place to the other bends as much from either.
+void takeBend(CellPiece& piece, const CellPiece& other);
 
 struct EdgeCell {
     /// Beside the centre: the four corners, then a lattice of 4 x 4.
@@ -59,8 +63,8 @@ class EdgeCells {
     void divideByLines(EdgeCell& cell) const;
     /// By counting the lattice's labels.
     void divideByCount(EdgeCell& cell) const;
-    /// A position where the piece is seen.
-    glm::dvec2 placeOf(const EdgeCell& cell, int piece) const;
+    /// Of the samples that see the piece the one nearest to their mean; kUnknown: none does.
+    int sampleOf(const EdgeCell& cell, int piece) const;
 
   private:
     sdf::FieldRay rayOf(const glm::dvec2& p_px) const { return grid_.ray(p_px); }

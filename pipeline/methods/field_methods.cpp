@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <cmath>
+
 #include "pipeline/device_error.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/cone_tracer.h"
@@ -115,6 +117,8 @@ MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTra
     FieldSettings settings;
     settings.cones.emplace();
     settings.cones->relaxed = true;
+    // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
+    settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
     return tracePixels(all, settings, coneXMaker(make));
 }
 

@@ -150,6 +150,24 @@ std::vector<double> FieldBatches::depths(std::span<const sdf::TravellingRay> ray
     return depths;
 }
 
+/// A map is asked by the device alone, which finds its hits again.
+std::vector<sdf::SurfaceHit> FieldBatches::describe(std::span<const sdf::TravellingRay> rays,
+                                                    std::span<const double> depths) {
+    if (scene_.glsl) return nearest(rays);
+    std::vector<sdf::SurfaceHit> hits(rays.size());
+    eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            sdf::SurfaceHit& hit = hits[i];
+            hit.hit = std::isfinite(depths[i]);
+            if (!hit.hit) continue;
+            hit.inside = rays[i].sign < 0.0, hit.t = depths[i];
+            hit.p_world = rays[i].ray.origin_world + rays[i].ray.direction_world * hit.t;
+        }
+        describe(std::span(hits).subspan(first, last - first));
+    });
+    return hits;
+}
+
 std::vector<char> FieldBatches::occluded(std::span<const sdf::TravellingRay> rays) {
     std::vector<char> hidden(rays.size());
     for (std::size_t first = 0; first < rays.size(); first += most_) {

@@ -30,6 +30,8 @@ class FieldBatches : public RayBatches {
     /// other.
     std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override;
     std::vector<double> depths(std::span<const sdf::TravellingRay> rays) override;
+    std::vector<sdf::SurfaceHit> describe(std::span<const sdf::TravellingRay> rays,
+                                          std::span<const double> depths) override;
     std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override;
 
   private:
