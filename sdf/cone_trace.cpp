@@ -34,19 +34,14 @@ ConeTrace::ConeTrace(const FieldRay& ray, const TraceSettings& trace, const Cone
 void ConeTrace::take(double value) {
     state_ = cones::coneTake(rules_, state_, value);
     ++hits_.evaluations;
-    if (asks() && hits_.evaluations >= most_steps_) {
-        state_.end = cones::kConeFar;
-        state_.closed = state_.closed || state_.open;
-    }
+    if (hits_.evaluations >= most_steps_) state_ = cones::coneStopped(state_);
     if (state_.closed) keepGroup();
     hits_.full = state_.end == cones::kConeFull;
 }
 
 void ConeTrace::keepGroup() {
     const int at = std::min(hits_.count, ConeHits::kMostGroups - 1);
-    // What fills the cone fills the mask, whose points may lie outside of the cone.
-    const bool fills = state_.end == cones::kConeFull && state_.least <= -1.0;
-    hits_.groups[at] = {cones::coneSampleAt(state_), fills ? -2.0 : state_.least, state_.hard};
+    hits_.groups[at] = {cones::coneSampleAt(state_), cones::coneLeast(state_), state_.hard};
     hits_.count = at + 1;
 }
 

@@ -98,6 +98,19 @@ EDGEWISE_FN ConeState coneTake(ConeRules rules, ConeState s, real value) {
     return s;
 }
 
+/// Out of steps: what is open is as complete as it gets.
+EDGEWISE_FN ConeState coneStopped(ConeState s) {
+    if (s.end != kConeGoes) return s;
+    s.end = kConeFar;
+    s.closed = s.closed || s.open;
+    return s;
+}
+
+/// The closed group's least distance in radii. What fills the cone fills the mask, whose points may lie outside of the cone.
+EDGEWISE_FN real coneLeast(ConeState s) {
+    return s.end == kConeFull && s.least <= real(-1.0) ? real(-2.0) : s.least;
+}
+
 /// The part of the cone's base that a group covers: of a plane whose normal's share across the ray is (nx, ny), as bits of
 /// a mask; bit row * columns + column (the corners of 6 x 6 left out) is a point of the square around the base. `distance`:
 /// of the plane from the middle, in radii (equation 8 with a normal of length 1; d_eff of the group's greatest occlusion).
