@@ -45,9 +45,13 @@ void ConeTrace::keepGroup() {
     hits_.count = at + 1;
 }
 
+bool fillsMask(const ConeGroup& group, const ConeSettings& settings) {
+    return (settings.relaxed && group.hard) || group.least <= -kSqrt2;
+}
+
 std::uint32_t groupMask(const ConeGroup& group, const glm::dvec3& normal_world, const glm::dvec3& right_world,
                         const glm::dvec3& down_world, const ConeSettings& settings) {
-    if (settings.relaxed && group.hard) return ~0u;
+    if (fillsMask(group, settings)) return ~0u;
     return cones::planeMask(glm::dot(normal_world, right_world), glm::dot(normal_world, down_world),
                             group.least, settings.four_by_eight);
 }

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
@@ -70,8 +71,10 @@ class VulkanFieldTracer : public FieldTracer {
         return withDeviceErrors([&] {
             const auto start = std::chrono::steady_clock::now();
             FieldCones out = cone_bands_ ? cone_bands_->trace(window) : emptyCones(window);
-            for (const std::uint32_t evaluations : out.evaluations) primary_.evaluations += evaluations;
-            primary_.primary += out.samples();
+            const std::uint64_t evaluations =
+                std::accumulate(out.evaluations.begin(), out.evaluations.end(), std::uint64_t{0});
+            primary_.evaluations += evaluations, primary_.primary += out.samples();
+            if (tiles_) tiles_->counts().evaluations += evaluations;
             seconds_ += secondsSince(start);
             return out;
         });
