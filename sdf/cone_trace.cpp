@@ -23,6 +23,7 @@ cones::ConeRules coneRules(const FieldRay& ray, const TraceSettings& trace, cons
     rules.hard = trace.threshold / scale;
     rules.relaxed = settings.relaxed;
     rules.backtrace = settings.backtrace;
+    rules.overstep = trace.relaxation != Relaxation::kNone;
     return rules;
 }
 

@@ -7,7 +7,7 @@
 namespace edgewise::vulkan {
 namespace {
 
-static_assert(sizeof(GpuConeState) == 32 && sizeof(GpuGroup) == 8);
+static_assert(sizeof(GpuConeState) == 44 && sizeof(GpuGroup) == 8);
 
 }  // namespace
 

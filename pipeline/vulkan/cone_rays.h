@@ -8,7 +8,7 @@ namespace edgewise::vulkan {
 
 /// EwConeState of shaders/field/groups.glsl.
 struct GpuConeState {
-    float t, safe_t, last_t, entry_t, hard_t, least;
+    float t, safe_t, last_t, value, slope, wall, entry_t, hard_t, least;
     std::uint32_t how;
     std::uint32_t evaluations;
 

@@ -48,10 +48,10 @@ std::string conesText(const sdf::TraceSettings& trace, const sdf::ConeSettings& 
     const sdf::cones::ConeRules rules = sdf::coneRules(unit, trace, cones);
     return fmt::format(
         "const float ew_cone_scale = {}, ew_cone_alpha = {}, ew_cone_hard = {};\n"
-        "const bool ew_cone_relaxed = {}, ew_cone_backtrace = {};\n"
+        "const bool ew_cone_relaxed = {}, ew_cone_backtrace = {}, ew_cone_overstep = {};\n"
         "const uint ew_room = {}u;\n",
         sdf::glslNumber(rules.radius), sdf::glslNumber(rules.alpha), sdf::glslNumber(rules.hard),
-        rules.relaxed, rules.backtrace, groupsARound(cones));
+        rules.relaxed, rules.backtrace, rules.overstep, groupsARound(cones));
 }
 
 bool isWord(char c) {

@@ -1,15 +1,15 @@
 // Hit groups along rays' cones by sdf_cone_step.glsl. A ray pauses when it has as many as there is room for; the host takes
 // them, and it goes on.
 struct EwConeState {
-    float t, safe_t, last_t, entry_t, hard_t, least;
-    uint how;  // the end in 2 bits, then open, hard, and whether the ray's sign is negative; from bit 8 on: groups
+    float t, safe_t, last_t, value, slope, wall, entry_t, hard_t, least;
+    uint how;  // the end in 2 bits, then a bit each; from bit 8 on: groups
     uint evaluations;
 };
 struct EwGroup {
     uint t_hard;  // t's bits, and the sign's: whether it is hard
     float least;
 };
-const uint ew_open_bit = 4u, ew_hard_bit = 8u, ew_negative_bit = 16u;
+const uint ew_open_bit = 4u, ew_hard_bit = 8u, ew_negative_bit = 16u, ew_longer_bit = 32u;
 layout(std430, binding = 1) buffer EwConeStates { EwConeState ew_cone_states[]; };
 layout(std430, binding = 2) writeonly buffer EwGroups { EwGroup ew_groups[]; };  // the first of each ray, then the second
 
@@ -22,6 +22,7 @@ ew_ConeRules ew_coneRulesOf(EwRay ray) {
     rules.hard = ew_cone_hard;
     rules.relaxed = ew_cone_relaxed;
     rules.backtrace = ew_cone_backtrace;
+    rules.overstep = ew_cone_overstep;
     return rules;
 }
 ew_ConeState ew_unpacked(EwConeState kept) {
@@ -29,9 +30,13 @@ ew_ConeState ew_unpacked(EwConeState kept) {
     s.t = kept.t;
     s.safe_t = kept.safe_t;
     s.last_t = kept.last_t;
+    s.value = kept.value;
+    s.slope = kept.slope;
+    s.wall = kept.wall;
     s.entry_t = kept.entry_t;
     s.hard_t = kept.hard_t;
     s.least = kept.least;
+    s.longer = (kept.how & ew_longer_bit) != 0u;
     s.open = (kept.how & ew_open_bit) != 0u;
     s.hard = (kept.how & ew_hard_bit) != 0u;
     s.closed = false;
@@ -39,8 +44,10 @@ ew_ConeState ew_unpacked(EwConeState kept) {
     return s;
 }
 EwConeState ew_packed(ew_ConeState s, bool negative, uint groups, uint evaluations) {
-    uint how = uint(s.end) | (s.open ? ew_open_bit : 0u) | (s.hard ? ew_hard_bit : 0u) | (negative ? ew_negative_bit : 0u);
-    return EwConeState(s.t, s.safe_t, s.last_t, s.entry_t, s.hard_t, s.least, how | groups << 8, evaluations);
+    uint how = uint(s.end) | (s.open ? ew_open_bit : 0u) | (s.hard ? ew_hard_bit : 0u) |
+               (negative ? ew_negative_bit : 0u) | (s.longer ? ew_longer_bit : 0u);
+    return EwConeState(s.t, s.safe_t, s.last_t, s.value, s.slope, s.wall, s.entry_t, s.hard_t, s.least, how | groups << 8,
+                       evaluations);
 }
 
 void main() {
