@@ -113,6 +113,8 @@ class VulkanFieldTracer : public FieldTracer {
         // A sixteenth of --memory for the device's buffers, several times that for the host's rays and hits;
         // the picture and the samples have the rest.
         most_ = FieldRays::most(*device_, shaders_, (input_.options.memory_mib << 20) / 16);
+        // A device that is a program on the CPU gains nothing by more, and the host's lists stay in caches.
+        if (!device_->traits().real_gpu) most_ = std::min(most_, std::size_t{1} << 17);
         if (!scene_.glsl && !input_.options.keeps("empty") && scene_.bound_holds) around_ = sphereOf();
     }
 
