@@ -4,11 +4,14 @@
 
 #include <cmath>
 
+#include "pipeline/field_rays.h"
 #include "pipeline/field_tracer.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/methods/cone_tracer.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/vulkan/cone_rays.h"
+#include "pipeline/vulkan/field_window.h"
 #include "sdf/evaluate.h"
 #include "tests/vulkan/test_device.h"
 
@@ -183,6 +186,62 @@ TEST_F(ConesOnDevice, OfRawGlslAreATreesOfTheSameSolid) {
     EXPECT_GT(worst, 0.999);
     expectSameCoverage(of_tree.samples(makeVulkanFieldTracer), of_map.samples(makeVulkanFieldTracer),
                        found.complex, "ball");
+}
+
+/// Cones that pause at every group, and go on.
+TEST_F(ConesOnDevice, InRoundsAreTheSameBits) {
+    for (const char* name : {"wires", "thin", "spheres-50"}) {
+        Picture picture(loadScene(findScene(name)));
+        const FieldCones whole = picture.cones(makeVulkanFieldTracer);
+        picture.settings.cones->shade_at_once = true;
+        const FieldCones rounds = picture.cones(makeVulkanFieldTracer);
+        EXPECT_EQ(whole.begin, rounds.begin);
+        EXPECT_EQ(whole.evaluations, rounds.evaluations);
+        ASSERT_EQ(whole.groups.size(), rounds.groups.size());
+        std::size_t most = 0;
+        for (std::size_t i = 0; i < whole.groups.size(); ++i) {
+            EXPECT_EQ(whole.groups[i].t, rounds.groups[i].t);
+            EXPECT_EQ(whole.groups[i].least, rounds.groups[i].least);
+            EXPECT_EQ(whole.groups[i].hard, rounds.groups[i].hard);
+        }
+        for (std::size_t i = 0; i < whole.samples(); ++i) most = std::max(most, countOf(whole, i));
+        fmt::print("{}: up to {} groups a cone\n", name, most);
+        EXPECT_GT(most, 1u);
+    }
+}
+
+/// Dispatches of few turns: states go on where they were.
+TEST_F(ConesOnDevice, OverManyDispatchesAreTheSameBits) {
+    Picture picture(loadScene(findScene("spheres-50")));
+    const sdf::TraceSettings& trace = picture.settings.trace;
+    const FieldShaders shaders =
+        makeFieldShaders(*picture.scene.field, trace, kWidth, kHeight, true, &*picture.settings.cones);
+    std::vector<GpuRay> rays;
+    const sdf::RayGrid grid = rayGrid(picture.camera, picture.film, picture.scene.field->far);
+    for (const sdf::TravellingRay& ray : raysOf(grid, picture.window(), 0, kHeight, 1.0))
+        rays.push_back(gpuRay(ray.ray, ray.sign));
+    std::vector<std::uint32_t> first;
+    std::uint64_t dispatches = 0;
+    for (const std::uint32_t turns : {0u, 500u, 200u}) {
+        FieldTiles tiles(test::device(), shaders, true, true, turns);
+        ConeRays cones(test::device(), shaders, *picture.settings.cones, tiles);
+        cones.begin(rays, {0.0, 0.0, 0.0, picture.scene.field->far}, {});
+        while (cones.goOn({})) {
+        }
+        std::vector<std::uint32_t> found;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const std::uint32_t groups = cones.states()[i].groups();
+            found.push_back(groups);
+            for (std::uint32_t k = 0; k < groups; ++k)
+                found.push_back(cones.groups()[k * rays.size() + i].t_hard);
+        }
+        if (!first.empty()) {
+            EXPECT_EQ(found, first);
+        }
+        EXPECT_GT(tiles.counts().dispatches, dispatches);
+        first = found, dispatches = tiles.counts().dispatches;
+    }
+    EXPECT_GT(first.size(), rays.size() + 500);
 }
 
 }  // namespace
