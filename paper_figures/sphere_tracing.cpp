@@ -16,6 +16,7 @@ SphereTracingEffort effortFor(bool quick) {
     effort.pruning_scenes = {"spheres-1000", "city", "random-box"};
     if (!quick) return effort;
     effort.width = 128, effort.height = 72, effort.runs = 1, effort.pruning_side = 32;
+    effort.picture_width = 64, effort.picture_height = 36;
     effort.scenes = {"jewel", "thin", "blob"};
     effort.candidate_scenes = {"thin"}, effort.jump_scenes = {"blob"}, effort.pruning_scenes = {"spheres-50"};
     return effort;
@@ -27,7 +28,8 @@ std::vector<FigureFile> makeSphereTracing(const FigureInput& input) {
     const SphereTracing found = measureSphereTracing(effortFor(input.quick), input.progress);
     std::vector<FigureFile> files{{"report.html", sphereTracingHtml(found)},
                                   {"results.json", sphereTracingJson(found)}};
-    files.insert(files.end(), found.pictures.begin(), found.pictures.end());
+    for (const PictureRow& row : found.pictures)
+        for (const PictureRow::Picture& picture : row.pictures) files.push_back(picture.file);
     return files;
 }
 

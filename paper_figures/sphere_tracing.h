@@ -12,6 +12,22 @@
 
 namespace edgewise::figures {
 
+/// What a pixel is whose ray ends elsewhere than classic tracing's.
+enum class HitChange : unsigned char {
+    kSilhouette,  ///< one of the eight pixels around it shows the other surface: an outline runs through it
+    kGrazing,     ///< none does, but the other depth lies between theirs: depth changes so fast from pixel to
+                  ///< pixel
+    kNarrow,  ///< nor that, but none shows the classic surface either: a gap or a thing narrower than a pixel
+    kAlone    ///< none of these
+};
+const char* nameOf(HitChange kind);
+
+struct ChangedHit {
+    int x = 0, y = 0;
+    double classic_depth = 0.0, depth = 0.0;  ///< along the ray; infinite: nothing
+    HitChange kind = HitChange::kAlone;
+};
+
 /// Rays of one picture under one setting. Times are of tracing, medians over the runs.
 struct TraceRun {
     std::string setting;
@@ -26,6 +42,7 @@ struct TracedScene {
     int width = 0, height = 0;
     std::uint64_t rays = 0;
     std::vector<TraceRun> runs;       ///< the first is classic
+    std::vector<ChangedHit> changed;  ///< of the last setting against classic
     std::optional<double> published;  ///< Keinert's ratio of times, on a scene of his own of that kind
     std::string remark;
     double ratioOf(const TraceRun& run) const {
@@ -60,15 +77,26 @@ struct PruningCount {
     std::uint64_t differing = 0;                                 ///< pixels whose depth differs in any bit
 };
 
+/// Pictures that are to be seen side by side.
+struct PictureRow {
+    std::string title, words;
+    struct Picture {
+        FigureFile file;  ///< PNG
+        std::string caption;
+    };
+    std::vector<Picture> pictures;
+};
+
 struct SphereTracing {
     bool quick = false;
     int runs = 1;
+    double seconds = 0.0;  ///< that all of it took
     std::vector<TracedScene> scenes;
     std::vector<TracedScene> convex;  ///< with the shortcut and without
     std::vector<CandidateCount> candidates;
     std::vector<JumpCount> jumps;
     std::vector<PruningCount> pruning;
-    std::vector<FigureFile> pictures;  ///< PNG
+    std::vector<PictureRow> pictures;
     std::vector<std::string> notes;
 };
 

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "pipeline/error.h"
-#include "pipeline/field_rays.h"
+#include "paper_figures/changed_hits.h"
+#include "paper_figures/sphere_tracing_pictures.h"
 #include "pipeline/field_shading.h"
-#include "pipeline/load_scene.h"
-#include "pipeline/resolve_camera.h"
-#include "pipeline/scene_catalog.h"
+#include "pipeline/methods/stopwatch.h"
 #include "sdf/evaluate.h"
 
 namespace edgewise::figures {
@@ -20,73 +18,11 @@ namespace {
 using sdf::Relaxation;
 using sdf::TraceSettings;
 
-/// Primary rays alone, as Keinert et al. time them: no light, no mirrors, no glass.
-std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
-    auto copy = std::make_shared<sdf::FieldScene>(scene);
-    for (sdf::SurfaceMaterial& material : copy->materials) {
-        material.shading = sdf::SurfaceMaterial::Shading::kUnlit;
-        material.reflectance = material.transmittance = 0.0;
-    }
-    return copy;
-}
-
-/// A scene's picture of one size, whatever the setting.
-struct View {
-    Scene scene;
-    Film film;
-    ResolvedCamera camera;
-    Prefilter filter = makePrefilter("box", {}, {});
-    RenderOptions options;
-    sdf::RayGrid rays;
-    View(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
-        scene.field = unlit(*scene.field);
-        CameraOptions wanted;
-        wanted.size = glm::ivec2(width, height);
-        camera = resolveCamera(scene, wanted, film);
-        options.device = DeviceChoice::kCpu;
-        rays = rayGrid(camera, film, scene.field->far);
-    }
-};
-
-struct Traced {
-    FieldSamples samples;
-    MethodResult report;
-    double seconds = 0.0;
-};
-
-Traced trace(const View& view, const TraceSettings& settings, Progress& progress) {
-    if (progress.cancelled()) throw Interrupted();
-    FieldSettings field;
-    field.trace = settings;
-    Progress quiet;
-    const MethodInput input{view.scene, view.camera, view.film, view.filter, view.options, quiet};
-    const auto tracer = makeCpuFieldTracer(input, field);
-    Traced traced;
-    traced.samples = tracer->trace({view.film.crop, 1, {}});
-    tracer->report(traced.report);
-    for (const StageTime& stage : traced.report.stages)
-        if (stage.name == "trace") traced.seconds += stage.seconds;
-    return traced;
-}
-
-TraceSettings settingsOf(Relaxation relaxation, bool prepass, double omega = 1.2) {
-    TraceSettings settings;
-    settings.relaxation = relaxation;
-    settings.omega = omega;
-    settings.prepass = prepass;
-    return settings;
-}
-
 struct NamedSetting {
     std::string name;
     TraceSettings settings;
     bool parameter_free;
 };
-
-/// His own omega where he states one for a scene of that kind.
-double keinertOmega(const std::string& scene) {
-    return scene == "path-room" ? 1.4 : 1.2;
-}
 
 std::vector<NamedSetting> settingsFor(const std::string& scene) {
     const double omega = keinertOmega(scene);
@@ -96,20 +32,6 @@ std::vector<NamedSetting> settingsFor(const std::string& scene) {
             {"auto", settingsOf(Relaxation::kAuto, false), true},
             {"classic + prepass", settingsOf(Relaxation::kNone, true), false},
             {"auto + prepass", settingsOf(Relaxation::kAuto, true), true}};
-}
-
-/// Hits of one surface are no further apart along a ray than this many radii of the pixel: grazing surfaces
-/// lie within the threshold for many of them.
-constexpr double kSameHitRadii = 64.0;
-
-/// On which surface a ray ends: hits further apart than what their thresholds allow are of different ones.
-bool sameHit(const FieldSamples& a, const FieldSamples& b, std::size_t i, const View& view) {
-    const bool hit = std::isfinite(a.depth[i]);
-    if (hit != std::isfinite(b.depth[i])) return false;
-    if (!hit) return true;
-    const sdf::FieldRay ray = view.rays.ray({0.5 * view.film.width, 0.5 * view.film.height});
-    const double pixel = ray.pixel_radius + ray.pixel_slope * a.depth[i];
-    return std::abs(a.depth[i] - b.depth[i]) <= kSameHitRadii * pixel;
 }
 
 std::uint64_t total(const std::vector<std::uint32_t>& counts) {
@@ -127,7 +49,7 @@ double medianOf(std::vector<double> values) {
 
 TracedScene measureScene(const std::string& name, const std::vector<NamedSetting>& settings,
                          const SphereTracingEffort& effort, Progress& progress) {
-    const View view(name, effort.width, effort.height);
+    const TracedView view(name, effort.width, effort.height);
     TracedScene scene;
     scene.name = name, scene.width = view.film.width, scene.height = view.film.height;
     scene.rays = static_cast<std::uint64_t>(view.film.width) * view.film.height;
@@ -145,8 +67,8 @@ TracedScene measureScene(const std::string& name, const std::vector<NamedSetting
                          total(traced.samples.iterations),
                          0};
             if (s == 0) classic = traced.samples;
-            for (std::size_t i = 0; i < classic.depth.size(); ++i)
-                row.changed += !sameHit(classic, traced.samples, i, view);
+            scene.changed = changedHits(view, classic, traced.samples);
+            row.changed = scene.changed.size();
             scene.runs.push_back(row);
         }
     for (std::size_t s = 0; s < settings.size(); ++s) scene.runs[s].seconds = medianOf(seconds[s]);
@@ -174,7 +96,7 @@ CandidateCount measureCandidates(const std::string& name, const SphereTracingEff
                                  Progress& progress) {
     constexpr int kPaperSteps = 64, kAllSteps = 16384;
     constexpr float kSameNormal = 0.7f;  // within 45 degrees
-    const View view(name, effort.width, effort.height);
+    const TracedView view(name, effort.width, effort.height);
     const auto traced = [&](bool screen, int steps) {
         TraceSettings settings = settingsOf(Relaxation::kNone, false);
         settings.screen_candidate = screen, settings.most_steps = steps, settings.threshold = 1.0;
@@ -196,7 +118,7 @@ CandidateCount measureCandidates(const std::string& name, const SphereTracingEff
 }
 
 /// Slope times cosine at a hit: how fast the field falls along the ray.
-double fallAlongRay(const View& view, const sdf::Tape& tape, int x, int y, double t) {
+double fallAlongRay(const TracedView& view, const sdf::Tape& tape, int x, int y, double t) {
     const sdf::FieldRay ray = view.rays.ray({x + 0.5, y + 0.5});
     const auto at = sdf::gradientAt(tape, ray.origin_world + t * ray.direction_world);
     return -glm::dot(at.gradient, ray.direction_world) / tape.lipschitz;
@@ -207,7 +129,7 @@ JumpCount measureJumps(const std::string& name, const SphereTracingEffort& effor
     constexpr float kOneSurface = 0.98f;
     constexpr double kLeastSlope = 0.6;
     constexpr int kPaperSteps = 3;
-    const View view(name, effort.width, effort.height);
+    const TracedView view(name, effort.width, effort.height);
     const auto traced = [&](int steps) {
         TraceSettings settings = settingsOf(Relaxation::kNone, false);
         settings.threshold = 1.0, settings.discontinuity_steps = steps;
@@ -233,7 +155,7 @@ JumpCount measureJumps(const std::string& name, const SphereTracingEffort& effor
 }
 
 PruningCount measurePruning(const std::string& name, const SphereTracingEffort& effort, Progress& progress) {
-    const View view(name, effort.pruning_side, effort.pruning_side);
+    const TracedView view(name, effort.pruning_side, effort.pruning_side);
     TraceSettings settings = settingsOf(Relaxation::kAuto, true);
     const Traced pruned = trace(view, settings, progress);
     settings.prune = false;
@@ -261,7 +183,8 @@ PruningCount measurePruning(const std::string& name, const SphereTracingEffort& 
 
 SphereTracing measureSphereTracing(const SphereTracingEffort& effort, Progress& progress) {
     progress.stage("trace", effort.scenes.size() + 1 + effort.candidate_scenes.size() +
-                                effort.jump_scenes.size() + effort.pruning_scenes.size());
+                                effort.jump_scenes.size() + effort.pruning_scenes.size() + 1);
+    Stopwatch watch;
     SphereTracing found;
     found.quick = effort.quick, found.runs = effort.runs;
     for (const std::string& name : effort.scenes) {
@@ -276,6 +199,9 @@ SphereTracing measureSphereTracing(const SphereTracingEffort& effort, Progress& 
         found.jumps.push_back(measureJumps(name, effort, progress));
     for (const std::string& name : effort.pruning_scenes)
         found.pruning.push_back(measurePruning(name, effort, progress));
+    found.pictures = sphereTracingPictures(effort, progress);
+    progress.advance(1);
+    found.seconds = watch.lap();
     return found;
 }
 

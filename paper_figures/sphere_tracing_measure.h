@@ -10,6 +10,7 @@ struct SphereTracingEffort {
     int width = 1280, height = 720, runs = 3;
     std::vector<std::string> scenes, candidate_scenes, jump_scenes, pruning_scenes;
     int pruning_side = 256;
+    int picture_width = 320, picture_height = 180;
 };
 
 /// Throws Interrupted when cancelled.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,9 +13,14 @@
 namespace edgewise::figures {
 namespace {
 
+constexpr HitChange kHitChanges[]{HitChange::kSilhouette, HitChange::kGrazing, HitChange::kNarrow,
+                                  HitChange::kAlone};
+
 constexpr const char* kStyle = R"css(
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px}
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));gap:14px}
+.pictures figure{margin:0}
 .pictures img{width:100%;image-rendering:pixelated}
+.pictures figcaption{font-size:13px}
 p.under{font-size:13px;color:#444;margin:8px 0 0}
 )css";
 
@@ -32,21 +38,21 @@ std::string runsTable(const std::vector<TracedScene>& scenes) {
     std::string rows;
     for (const TracedScene& scene : scenes)
         for (const TraceRun& run : scene.runs) {
-            const bool first = &run == &scene.runs.front();
+            // His comparison is of over-relaxation, or of the shortcut, with classic tracing.
+            const bool his = run.setting == "keinert" || run.setting == "convex shortcut";
             rows +=
                 fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(scene.name), escapedHtml(run.setting)) +
                 number(double(run.evaluations) / double(scene.rays), "{:.2f}") +
                 number(scene.ratioOf(run), "{:.3f}") + number(1e3 * run.seconds, "{:.0f}") +
                 number(scene.runs[0].seconds / run.seconds, "{:.3f}") +
                 number(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
-                (scene.published && !first ? number(*scene.published, "{:.2f}")
-                                           : std::string("<td data-value=''></td>")) +
+                (scene.published && his ? number(*scene.published, "{:.2f}")
+                                        : std::string("<td data-value=''></td>")) +
                 "</tr>\n";
         }
     return table(
-        "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>classic's over "
-        "it</th><th>ms</th><th>classic's over "
-        "it</th><th>other hits, %</th><th>published ratio of times</th>",
+        "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>times fewer</th><th>ms</th><th>times "
+        "faster</th><th>other hits, %</th><th>published: times faster</th>",
         rows);
 }
 
@@ -61,7 +67,10 @@ std::string meansTable(const SphereTracing& found) {
                 number(geometricMeanRatio(found, run.setting), "{:.3f}") + number(least, "{:.3f}") +
                 "</tr>\n";
     }
-    return table("<th>setting</th><th></th><th>geometric mean</th><th>least of all scenes</th>", rows);
+    return table(
+        "<th>setting</th><th></th><th>times fewer evaluations, geometric mean</th><th>least of all "
+        "scenes</th>",
+        rows);
 }
 
 std::string candidatesTable(const SphereTracing& found) {
@@ -100,23 +109,61 @@ std::string pruningTable(const SphereTracing& found) {
                 number(p.seconds_whole / p.seconds_pruned, "{:.1f}") + number(p.build_seconds, "{:.3f}") +
                 fmt::format("<td>{}</td></tr>\n", p.differing);
     return table(
-        "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>s</th><th>pruned, "
+        "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>whole, "
+        "s</th><th>pruned, "
         "s</th><th>times "
         "faster</th><th>of it pruning, s, all threads</th><th>differing depths</th>",
         rows);
 }
 
-std::string pictures(const SphereTracing& found) {
-    std::string out;
-    for (const FigureFile& picture : found.pictures)
+std::string pictures(const PictureRow& row) {
+    std::string out = fmt::format("<h3>{}</h3><p class='under'>{}</p><div class='pictures'>",
+                                  escapedHtml(row.title), escapedHtml(row.words));
+    for (const PictureRow::Picture& picture : row.pictures) {
+        const std::string& bytes = picture.file.bytes;
         out += fmt::format(
             "<figure class='card'><img alt='{0}' "
             "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-            escapedHtml(picture.name),
-            compare::base64(
-                {reinterpret_cast<const unsigned char*>(picture.bytes.data()), picture.bytes.size()}));
-    return out.empty() ? out : "<h2>Pictures</h2><div class='pictures'>" + out + "</div>";
+            escapedHtml(picture.caption),
+            compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
+    }
+    return out + "</div>";
 }
+
+std::string pictures(const SphereTracing& found) {
+    std::string out;
+    for (const PictureRow& row : found.pictures) out += pictures(row);
+    return out.empty() ? out : "<h2>Pictures</h2>" + out;
+}
+
+std::size_t countOf(const TracedScene& scene, HitChange kind) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(scene.changed, [&](const ChangedHit& hit) { return hit.kind == kind; }));
+}
+
+/// Of the last setting, which has all that is on by default.
+std::string changesTable(const SphereTracing& found) {
+    std::string rows;
+    for (const TracedScene& scene : found.scenes) {
+        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(scene.name),
+                            escapedHtml(scene.runs.back().setting), scene.changed.size());
+        for (const HitChange kind : kHitChanges) rows += fmt::format("<td>{}</td>", countOf(scene, kind));
+        rows += number(100.0 * double(scene.changed.size()) / double(scene.rays), "{:.4f}") + "</tr>\n";
+    }
+    return table(
+        "<th>scene</th><th></th><th>other "
+        "hits</th><th>silhouette</th><th>grazing</th><th>narrow</th><th>alone</th><th>of "
+        "all "
+        "pixels, %</th>",
+        rows);
+}
+
+constexpr const char* kChangeWords =
+    "<p class='under'>Of the eight pixels around, by classic tracing. Silhouette: one shows the surface that "
+    "this "
+    "pixel's ray now ends on. Grazing: none does, but the new depth lies between theirs. Narrow: none shows "
+    "either surface, so the ray is in a gap, or on a thing, narrower than a pixel. Alone: none of these. "
+    "results.json lists every pixel with both depths.</p>\n";
 
 std::string notes(const SphereTracing& found) {
     std::string out;
@@ -129,13 +176,36 @@ constexpr const char* kWords =
     "rays. Times are "
     "of tracing alone, unlit, medians, all settings by turns. Other hits: pixels whose ray ends on nothing "
     "where classic "
-    "tracing ends on something, or the reverse, or at a depth that differs by more than thresholds allow. "
+    "tracing ends on something, or the reverse, or at a depth that differs by more than 64 radii of a pixel. "
     "Published: "
     "Keinert et al. 2014, on a GTX Titan and on scenes of theirs that are not published; ours are of the "
     "same kinds and "
     "are not made to match.</p>\n";
 
+/// [x, y, classic's depth, the last setting's, kind]; null: nothing is hit.
+nlohmann::ordered_json changesJson(const TracedScene& scene) {
+    using Json = nlohmann::ordered_json;
+    const auto depthJson = [](double depth) { return std::isfinite(depth) ? Json(depth) : Json(); };
+    Json list = Json::array();
+    for (const ChangedHit& hit : scene.changed)
+        list.push_back({hit.x, hit.y, depthJson(hit.classic_depth), depthJson(hit.depth), nameOf(hit.kind)});
+    return list;
+}
+
 }  // namespace
+
+const char* nameOf(HitChange kind) {
+    switch (kind) {
+        case HitChange::kSilhouette:
+            return "silhouette";
+        case HitChange::kGrazing:
+            return "grazing";
+        case HitChange::kNarrow:
+            return "narrow";
+        default:
+            return "alone";
+    }
+}
 
 double geometricMeanRatio(const SphereTracing& found, const std::string& setting) {
     double sum = 0.0;
@@ -153,11 +223,12 @@ std::string sphereTracingHtml(const SphereTracing& found) {
                "href='data:,'><style>{}{}</style>"
                "</head><body><main><h1>Sphere tracing</h1><p>edgewise {}, <code>edgewise figure "
                "sphere-tracing{} -o "
-               "DIR</code>, CPU, {} run{}</p>\n",
+               "DIR</code>, CPU, {} run{}, {:.0f} s in all</p>\n",
                compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "",
-               found.runs, found.runs == 1 ? "" : "s") +
+               found.runs, found.runs == 1 ? "" : "s", found.seconds) +
            "<h2>Relaxation and cones: all scenes</h2>" + meansTable(found) + "<h2>Scene by scene</h2>" +
-           runsTable(found.scenes) + kWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
+           runsTable(found.scenes) + kWords + "<h2>Other hits, pixel by pixel</h2>" + changesTable(found) +
+           kChangeWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
            "<h2>Out of steps: which point is the hit</h2>" + candidatesTable(found) +
            "<h2>Discontinuity reduction</h2>" + jumpsTable(found) + "<h2>Pruning</h2>" + pruningTable(found) +
            pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript +
@@ -180,11 +251,14 @@ std::string sphereTracingJson(const SphereTracing& found) {
                             {"size", {scene.width, scene.height}},
                             {"rays", scene.rays},
                             {"published", scene.published ? Json(*scene.published) : Json()},
-                            {"runs", runs}});
+                            {"runs", runs},
+                            {"other_hits", changesJson(scene)}});
         }
         return list;
     };
-    Json json{{"scenes", scenesJson(found.scenes)}, {"convex", scenesJson(found.convex)}};
+    Json json{{"seconds", found.seconds},
+              {"scenes", scenesJson(found.scenes)},
+              {"convex", scenesJson(found.convex)}};
     for (const CandidateCount& c : found.candidates)
         json["candidates"].push_back({{"scene", c.scene},
                                       {"steps", c.steps},

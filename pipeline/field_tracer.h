@@ -60,10 +60,11 @@ class FieldTracer {
     virtual FieldSamples trace(const FieldWindow& window) = 0;
     /// Wants FieldSettings::cones, and a scene without closed forms (fieldOfAll).
     virtual FieldCones traceCones(const FieldWindow& window) = 0;
-    /// Linear colours of rays whose hits are known, as trace() gives them. Neighbours should be near each
-    /// other.
+    /// Linear colours of rays whose hits are known, as trace() gives them; sights as shadeWavefront() says.
+    /// Neighbours should be near each other.
     virtual std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                          std::vector<sdf::SurfaceHit> hits) = 0;
+                                          std::vector<sdf::SurfaceHit> hits,
+                                          std::vector<std::uint32_t>* sights = nullptr) = 0;
     /// Any other rays through the same scene.
     virtual RayBatches& batches() = 0;
     /// Adds its stage times, plan, counts, notes, set-up and device.

@@ -1,11 +1,11 @@
 // SDF scenes on the CPU: tiles of rays on all threads, then each hit is shaded.
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
@@ -23,27 +23,25 @@ int tileOf(int px, int side) {
     return static_cast<int>(std::floor(static_cast<double>(px) / side));
 }
 
-/// Any rays, a ray at a time on all threads.
-class CpuBatches : public RayBatches {
+/// Tells what a ray has seen.
+class SightTracer : public sdf::SurfaceTracer {
   public:
-    explicit CpuBatches(const sdf::SceneTracer& tracer) : tracer_(tracer) {}
-    std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override {
-        std::vector<sdf::SurfaceHit> hits(rays.size());
-        tbb::parallel_for(std::size_t(0), rays.size(),
-                          [&](std::size_t i) { hits[i] = tracer_.nearest(rays[i].ray, rays[i].sign); });
-        return hits;
+    explicit SightTracer(const sdf::SurfaceTracer& of) : of_(of) {}
+    sdf::SurfaceHit nearest(const sdf::FieldRay& ray, double sign) const override {
+        const sdf::SurfaceHit hit = of_.nearest(ray, sign);
+        sight_ = sightWith(sight_, hit.hit ? hit.material + 1 : 0);
+        return hit;
     }
-    std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
-        std::vector<char> hidden(rays.size());
-        tbb::parallel_for(std::size_t(0), rays.size(), [&](std::size_t i) {
-            std::uint64_t evaluations = 0;
-            hidden[i] = tracer_.occluded(rays[i].ray, rays[i].sign, evaluations);
-        });
+    bool occluded(const sdf::FieldRay& ray, double sign, std::uint64_t& evaluations) const override {
+        const bool hidden = of_.occluded(ray, sign, evaluations);
+        sight_ = sightWith(sight_, hidden);
         return hidden;
     }
+    std::uint32_t takeSight() const { return std::exchange(sight_, 0u); }
 
   private:
-    const sdf::SceneTracer& tracer_;
+    const sdf::SurfaceTracer& of_;
+    mutable std::uint32_t sight_ = 0;
 };
 
 /// A tile's samples, and their groups one after the other.
@@ -52,7 +50,7 @@ struct TileCones {
     std::vector<sdf::ConeGroup> groups;
 };
 
-class CpuFieldTracer : public FieldTracer {
+class CpuFieldTracer : public FieldTracer, private RayBatches {
   public:
     CpuFieldTracer(const MethodInput& in, const FieldSettings& settings)
         : in_(in),
@@ -62,7 +60,6 @@ class CpuFieldTracer : public FieldTracer {
           grid_(rayGrid(in.camera, in.film, scene_.far)),
           cones_(settings.cones.value_or(sdf::ConeSettings{})),
           tracer_(scene_, tape_, settings_),
-          batches_(tracer_),
           shader_(fieldShading(in, settings_, false), tracer_) {
         sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
         setup_seconds_ = watch_.lap();
@@ -91,23 +88,26 @@ class CpuFieldTracer : public FieldTracer {
         return out;
     }
 
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                  std::vector<sdf::SurfaceHit> hits) override {
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+                                  std::vector<std::uint32_t>* sights) override {
         watch_.lap();
         std::vector<glm::dvec4> colors(rays.size());
+        if (sights) sights->resize(rays.size());
         tbb::enumerable_thread_specific<sdf::RayCounts> counts;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 256), [&](const auto& part) {
-            if (in_.progress.cancelled()) return;
-            for (std::size_t i = part.begin(); i != part.end(); ++i)
-                colors[i] = shader_.shade(rays[i].ray, hits[i], counts.local(), rays[i].sign);
+        eachPart(rays.size(), 1024, [&](std::size_t first, std::size_t last) {
+            const SightTracer seeing(tracer_);
+            const sdf::Shader shader(shader_.settings(), seeing);
+            for (std::size_t i = first; i < last; ++i) {
+                colors[i] = shader.shade(rays[i].ray, hits[i], counts.local(), rays[i].sign);
+                if (sights) (*sights)[i] = sightWith(seeing.takeSight(), hits[i].material);
+            }
         });
         for (const sdf::RayCounts& part : counts) ray_counts_ += part;
-        checkCancelled(in_.progress);
         watch_.book("shade", stages_);
         return colors;
     }
 
-    RayBatches& batches() override { return batches_; }
+    RayBatches& batches() override { return *this; }
 
     void report(MethodResult& result) const override {
         for (const StageTime& stage : stages_) result.stages.push_back(stage);
@@ -118,6 +118,48 @@ class CpuFieldTracer : public FieldTracer {
     }
 
   private:
+    /// Calls work(first, last) for parts of so many on all threads.
+    template <class Work>
+    void eachPart(std::size_t count, std::size_t at_once, const Work& work) {
+        tbb::parallel_for(std::size_t(0), (count + at_once - 1) / at_once, [&](std::size_t part) {
+            if (!in_.progress.cancelled()) work(part * at_once, std::min(count, (part + 1) * at_once));
+        });
+        checkCancelled(in_.progress);
+    }
+
+    std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<sdf::SurfaceHit> hits(rays.size());
+        eachPart(rays.size(), 64, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) hits[i] = tracer_.nearest(rays[i].ray, rays[i].sign);
+        });
+        return hits;
+    }
+    std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<char> hidden(rays.size());
+        eachPart(rays.size(), 64, [&](std::size_t first, std::size_t last) {
+            std::uint64_t evaluations = 0;
+            for (std::size_t i = first; i < last; ++i)
+                hidden[i] = tracer_.occluded(rays[i].ray, rays[i].sign, evaluations);
+        });
+        return hidden;
+    }
+    std::vector<double> depths(std::span<const sdf::TravellingRay> rays) override {
+        std::vector<double> depths(rays.size(), HUGE_VAL);
+        if (tape_.size() == 0) return depths;
+        const sdf::TileTracer loose(tape_, grid_, settings_, sign_, {}, &tracer_.cells());
+        tbb::enumerable_thread_specific<sdf::TileCounts> counts;
+        eachPart(rays.size(), 1024, [&](std::size_t first, std::size_t last) {
+            std::vector<sdf::FieldRay> part;
+            for (std::size_t i = first; i < last; ++i) part.push_back(limited(rays[i].ray));
+            std::vector<sdf::TraceHit> hits(part.size());
+            loose.traceLoose(part, hits, counts.local());
+            for (std::size_t i = first; i < last; ++i)
+                if (hits[i - first].hit()) depths[i] = hits[i - first].t;
+        });
+        for (const sdf::TileCounts& part : counts) counts_ += part;
+        return depths;
+    }
+
     static FieldSamples sized(std::size_t count) {
         FieldSamples out;
         out.color.resize(count), out.depth.resize(count), out.normal.resize(count);
@@ -353,7 +395,6 @@ class CpuFieldTracer : public FieldTracer {
     const sdf::RayGrid grid_;
     const sdf::ConeSettings cones_;
     const sdf::SceneTracer tracer_;
-    CpuBatches batches_;
     const sdf::Shader shader_;
     double sign_ = 1.0, setup_seconds_ = 0.0;
     std::vector<StageTime> stages_;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace edgewise {
 namespace {
@@ -28,10 +29,16 @@ class ShadowAnswers : public sdf::SurfaceTracer {
   public:
     explicit ShadowAnswers(const char* first) : next_(first) {}
     SurfaceHit nearest(const FieldRay&, double) const override { return {}; }
-    bool occluded(const FieldRay&, double, std::uint64_t&) const override { return *next_++ != 0; }
+    bool occluded(const FieldRay&, double, std::uint64_t&) const override {
+        sight_ = sightWith(sight_, static_cast<std::uint32_t>(*next_));
+        return *next_++ != 0;
+    }
+    /// Of the answers since it was last asked.
+    std::uint32_t takeSight() const { return std::exchange(sight_, 0u); }
 
   private:
     mutable const char* next_;
+    mutable std::uint32_t sight_ = 0;
 };
 
 /// Branches with their hits, and which of the first rays each belongs to.
@@ -72,8 +79,9 @@ struct ShadowBatch {
 
 class Wavefront {
   public:
-    Wavefront(const Shader& shader, RayBatches& batches, std::vector<glm::dvec4>& sums, RayCounts& counts)
-        : shader_(shader), batches_(batches), sums_(sums), counts_(counts) {}
+    Wavefront(const Shader& shader, RayBatches& batches, std::vector<glm::dvec4>& sums, RayCounts& counts,
+              std::vector<std::uint32_t>* sights)
+        : shader_(shader), batches_(batches), sums_(sums), counts_(counts), sights_(sights) {}
 
     Generation follow(const Generation& g) {
         std::vector<Part> parts = partsOf(g);
@@ -81,10 +89,16 @@ class Wavefront {
         const ShadowBatch shadows(parts);
         const std::vector<char> answers = batches_.occluded(shadows.rays);
         std::vector<glm::dvec3> sent(g.branches.size());
+        sight_of_.assign(g.branches.size(), 0u);
         eachPart(parts, [&](Part& part, std::size_t i) {
             send(g, part, ShadowAnswers(answers.data() + shadows.begin[i]), sent);
         });
-        for (std::size_t i = 0; i < sent.size(); ++i) sums_[g.owners[i]] += glm::dvec4(sent[i], 0.0);
+        for (std::size_t i = 0; i < sent.size(); ++i) {
+            sums_[g.owners[i]] += glm::dvec4(sent[i], 0.0);
+            if (!sights_) continue;
+            std::uint32_t& sight = (*sights_)[g.owners[i]];
+            sight = sightWith(sightWith(sight, sight_of_[i]), g.hits[i].hit ? g.hits[i].material + 1 : 0);
+        }
         return nextOf(parts);
     }
 
@@ -102,13 +116,13 @@ class Wavefront {
             part.next_owners.resize(part.next.size(), g.owners[i]);
         }
     }
-    void send(const Generation& g, Part& part, const ShadowAnswers& shadows,
-              std::vector<glm::dvec3>& sent) const {
+    void send(const Generation& g, Part& part, const ShadowAnswers& shadows, std::vector<glm::dvec3>& sent) {
         std::vector<Shader::Branch> unused;
         for (std::size_t i = part.first; i < part.last; ++i) {
             unused.clear();
             sent[i] = g.hits[i].hit ? shader_.follow(g.branches[i], g.hits[i], shadows, unused, part.counts)
                                     : g.branches[i].share * shader_.settings().background;
+            sight_of_[i] = shadows.takeSight();
         }
     }
 
@@ -130,13 +144,16 @@ class Wavefront {
     RayBatches& batches_;
     std::vector<glm::dvec4>& sums_;
     RayCounts& counts_;
+    std::vector<std::uint32_t>* sights_;
+    std::vector<std::uint32_t> sight_of_;  ///< of the generation's lights
 };
 
 }  // namespace
 
 std::vector<glm::dvec4> shadeWavefront(const Shader& shader, RayBatches& batches,
                                        std::span<const TravellingRay> rays, std::vector<SurfaceHit> hits,
-                                       RayCounts& counts) {
+                                       RayCounts& counts, std::vector<std::uint32_t>* sights) {
+    if (sights) sights->assign(rays.size(), 0u);
     std::vector<glm::dvec4> sums(rays.size(), glm::dvec4(shader.settings().background, 0.0));
     Generation g;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -148,7 +165,7 @@ std::vector<glm::dvec4> shadeWavefront(const Shader& shader, RayBatches& batches
         g.owners.push_back(static_cast<std::uint32_t>(i));
         g.hits.push_back(hits[i]);
     }
-    Wavefront wavefront(shader, batches, sums, counts);
+    Wavefront wavefront(shader, batches, sums, counts, sights);
     while (!g.branches.empty()) g = wavefront.follow(g);
     return sums;
 }

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "sdf/pattern_point.h"
+
 namespace edgewise::sdf {
 namespace {
 
@@ -42,6 +44,18 @@ std::pair<double, double> meetSphere(const glm::dvec3& origin, const glm::dvec3&
 
 AnalyticMeeting meet(const AnalyticShape& shape, const FieldRay& ray) {
     return shape.type == AnalyticShape::Type::kSphere ? meetBall(shape, ray) : meetPlane(shape, ray);
+}
+
+double heightOver(const AnalyticShape& shape, const glm::dvec3& p) {
+    return shape.type == AnalyticShape::Type::kSphere ? length(p - shape.center_world) - shape.radius
+                                                      : dot(p, shape.normal_world) - shape.offset;
+}
+
+glm::dvec3 patternPoint(const AnalyticShape& shape, const glm::dvec3& p, double t) {
+    const double height = heightOver(shape, p);
+    if (shape.type == AnalyticShape::Type::kPlane) return patternPoint(p, shape.normal_world, height, t);
+    const glm::dvec3 outward = glm::normalize(p - shape.center_world);
+    return patternPoint(p, outward, height, t) - shape.center_world;
 }
 
 }  // namespace edgewise::sdf

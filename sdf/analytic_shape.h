@@ -19,4 +19,9 @@ struct AnalyticMeeting {
 };
 AnalyticMeeting meet(const AnalyticShape& shape, const FieldRay& ray);
 
+/// How far a point is outside; negative: within.
+double heightOver(const AnalyticShape& shape, const glm::dvec3& p_world);
+/// Where the pattern of a hit is asked, in the shape's frame: from a sphere's centre; of planes the world's.
+glm::dvec3 patternPoint(const AnalyticShape& shape, const glm::dvec3& p_world, double t);
+
 }  // namespace edgewise::sdf

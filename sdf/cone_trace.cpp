@@ -42,7 +42,7 @@ void ConeTrace::take(double value) {
 
 void ConeTrace::keepGroup() {
     const int at = std::min(hits_.count, ConeHits::kMostGroups - 1);
-    hits_.groups[at] = {cones::coneSampleAt(state_), cones::coneLeast(state_), state_.hard};
+    hits_.groups[at] = {cones::coneSampleAt(state_), state_.entry_t, cones::coneLeast(state_), state_.hard};
     hits_.count = at + 1;
 }
 

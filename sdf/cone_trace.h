@@ -13,7 +13,8 @@
 namespace edgewise::sdf {
 
 struct ConeGroup {
-    double t = 0.0;  ///< where it is shaded
+    double t = 0.0;      ///< where it is shaded
+    double entry = 0.0;  ///< where the cone comes upon it: nothing of it lies before
     double least =
         1.0;  ///< the least distance met, in radii of the cone: the greatest occlusion is (1 - least) / 2
     bool hard = false;  ///< the ray itself meets the surface

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "sdf/evaluate.h"
+#include "sdf/pattern_point.h"
 #include "sdf/prune.h"
 
 namespace edgewise::sdf {
@@ -14,17 +14,10 @@ namespace {
 /// Shorter tapes are not worth shortening: that takes as long as asking them once or twice.
 constexpr std::size_t kFewInstructions = 24;
 
-/// A hit of less exact arithmetic that lies behind the surface is moved as far before it: patterns may have
-/// an edge on the surface itself.
+/// A hit of less exact arithmetic that lies behind the surface is moved as far before it.
 void describe(const Tape& tape, SurfaceHit& hit, std::size_t materials) {
-    const auto [value, gradient] = gradientAt(tape, hit.p_world);
-    const double length = glm::length(gradient);
-    const bool sloped = length > 0.0 && std::isfinite(length);
-    hit.normal_world = sloped ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
-    if (sloped && (hit.inside ? value > 0.0 : value < 0.0))
-        hit.p_world -= hit.normal_world * (2.0 * value / length);
-    hit.material = winnerAt(tape, hit.p_world, hit.p_local).material;
-    hit.material = std::min(hit.material, static_cast<std::uint32_t>(materials - 1));
+    const double height = describeHit(tape, hit, materials);
+    if (hit.inside ? height > 0.0 : height < 0.0) hit.p_world -= hit.normal_world * (2.0 * height);
 }
 
 struct Extent {

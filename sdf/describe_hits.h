@@ -8,9 +8,9 @@
 
 namespace edgewise::sdf {
 
-/// Gives hits whose p_world is known their normal, and of the tree's winning branch the material and the
-/// position in its frame: the bits that SceneTracer::fieldHit gives to hits on the ray's side. `prune`: by
-/// tapes that are shortened for a ball around them, then for halves of them. `materials`: how many there are.
+/// Gives hits whose p_world and t are known what describeHit() gives: the bits that SceneTracer::fieldHit
+/// gives to hits on the ray's side. `prune`: by tapes that are shortened for a ball around them, then for
+/// halves of them. `materials`: how many there are.
 void describeHits(const Tape& tape, std::span<SurfaceHit*> hits, std::size_t materials, bool prune);
 
 }  // namespace edgewise::sdf

@@ -71,4 +71,16 @@ const Instruction& winnerAt(const TapeView& tape, const glm::dvec3& p, glm::dvec
     return *winner[0];
 }
 
+glm::dvec3 localAt(const TapeView& tape, const Instruction& shape, const glm::dvec3& p) {
+    Slots<double>& slots = scratch<double>();
+    slots.position[0] = {p.x, p.y, p.z};
+    Vec3<double> local = slots.position[0];
+    tape.forEach([&](const Instruction& i, Code code) {
+        if (&i == &shape) local = slots.position[i.a];
+        if (kCodeForms[static_cast<int>(code)] == CodeForm::kMove)
+            step(i, code, tape.numbers + i.numbers, slots);
+    });
+    return {local.x, local.y, local.z};
+}
+
 }  // namespace edgewise::sdf

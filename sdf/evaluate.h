@@ -28,4 +28,7 @@ RunningError floatErrorAt(const TapeView& tape, const glm::vec3& p_world);
 /// unions, the farther of intersections, the cutting shape where a difference is its cut.
 const Instruction& winnerAt(const TapeView& tape, const glm::dvec3& p_world, glm::dvec3& p_local);
 
+/// A point in the frame of one of the tape's shapes, whichever wins there.
+glm::dvec3 localAt(const TapeView& tape, const Instruction& shape, const glm::dvec3& p_world);
+
 }  // namespace edgewise::sdf

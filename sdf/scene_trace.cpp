@@ -6,6 +6,7 @@
 
 #include "sdf/analytic_shape.h"
 #include "sdf/evaluate.h"
+#include "sdf/pattern_point.h"
 
 namespace edgewise::sdf {
 namespace {
@@ -72,9 +73,7 @@ SurfaceHit SceneTracer::fieldHit(const FieldRay& ray, const TraceHit& hit, doubl
     out.hit = true, out.inside = sign < 0.0;
     out.t = hit.t, out.value = hit.value;
     out.p_world = ray.origin_world + ray.direction_world * hit.t;
-    out.normal_world = normalAt(out.p_world);
-    out.material = winnerAt(cells_->at(out.p_world).tape, out.p_world, out.p_local).material;
-    out.material = std::min(out.material, static_cast<std::uint32_t>(scene_.materials.size() - 1));
+    describeHit(cells_->at(out.p_world).tape, out, scene_.materials.size());
     return out;
 }
 
@@ -83,12 +82,11 @@ void SceneTracer::meetAnalytic(const FieldRay& ray, SurfaceHit& nearest) const {
         const AnalyticShape& shape = scene_.analytic[i];
         const AnalyticMeeting met = meet(shape, ray);
         if (!(met.t <= ray.t_max) || (nearest.hit && met.t >= nearest.t)) continue;
-        const bool sphere = shape.type == AnalyticShape::Type::kSphere;
         nearest.hit = true, nearest.shape = static_cast<std::uint32_t>(i);
         nearest.inside = met.inside, nearest.t = met.t, nearest.value = 0.0;
         nearest.p_world = ray.origin_world + ray.direction_world * met.t;
         nearest.normal_world = met.normal_world, nearest.material = shape.material;
-        nearest.p_local = sphere ? nearest.p_world - shape.center_world : nearest.p_world;
+        nearest.p_local = patternPoint(shape, nearest.p_world, met.t);
     }
 }
 
@@ -115,12 +113,6 @@ bool SceneTracer::occluded(const FieldRay& ray, double sign, std::uint64_t& eval
 
 double SceneTracer::signAt(const glm::dvec3& p_world) const {
     return tape_.size() > 0 && valueAt(tape_, p_world) < 0.0 ? -1.0 : 1.0;
-}
-
-glm::dvec3 SceneTracer::normalAt(const glm::dvec3& p_world) const {
-    const glm::dvec3 gradient = gradientAt(cells_->at(p_world).tape, p_world).gradient;
-    const double length = glm::length(gradient);
-    return length > 0.0 && std::isfinite(length) ? gradient / length : glm::dvec3(0.0, 1.0, 0.0);
 }
 
 }  // namespace edgewise::sdf

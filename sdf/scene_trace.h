@@ -46,8 +46,6 @@ class SceneTracer : public SurfaceTracer {
     const CellTapes& cells() const { return *cells_; }
 
   private:
-    glm::dvec3 normalAt(const glm::dvec3& p_world) const;
-
     const FieldScene& scene_;
     const Tape& tape_;
     TraceSettings settings_;

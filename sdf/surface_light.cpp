@@ -8,18 +8,6 @@
 namespace edgewise::sdf {
 namespace {
 
-bool showsSecondColor(const SurfaceMaterial& material, const glm::dvec3& p_local) {
-    switch (material.pattern) {
-        case SurfaceMaterial::Pattern::kChecker:
-            return shading::checkerAt(p_local, material.pattern_size) > 0.5;
-        case SurfaceMaterial::Pattern::kStripes:
-            return shading::stripesAt(p_local, glm::normalize(material.pattern_axis), material.pattern_size) >
-                   0.5;
-        default:
-            return false;
-    }
-}
-
 /// Rays end `far` from where they begin, or at a light.
 FieldRay secondaryRay(const SurfacePoint& point, const glm::dvec3& origin, const glm::dvec3& direction,
                       double t_max) {
@@ -36,6 +24,18 @@ bool reaches(const LightArrival& arrival, const ShadingSettings& settings, const
 }
 
 }  // namespace
+
+bool showsSecondColor(const SurfaceMaterial& material, const glm::dvec3& p_local) {
+    switch (material.pattern) {
+        case SurfaceMaterial::Pattern::kChecker:
+            return shading::checkerAt(p_local, material.pattern_size) > 0.5;
+        case SurfaceMaterial::Pattern::kStripes:
+            return shading::stripesAt(p_local, glm::normalize(material.pattern_axis), material.pattern_size) >
+                   0.5;
+        default:
+            return false;
+    }
+}
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
     primary += other.primary, shadow += other.shadow, reflection += other.reflection;

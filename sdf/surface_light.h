@@ -25,6 +25,9 @@ struct ShadingSettings {
 /// Materials, ambient light, bounces and lights of a scene.
 ShadingSettings shadingOf(const FieldScene& scene, const TraceSettings& trace);
 
+/// Which of a pattern's two colours is seen at a place in the shape's frame.
+bool showsSecondColor(const SurfaceMaterial& material, const glm::dvec3& p_local);
+
 /// Rays by what they are for.
 struct RayCounts {
     std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0, scattered = 0;

@@ -18,7 +18,7 @@ struct SurfaceHit {
     double t = 0.0;                ///< along the ray
     glm::dvec3 p_world{0.0};
     glm::dvec3 normal_world{0.0};  ///< unit, out of the solid; planes: on the ray's side
-    glm::dvec3 p_local{0.0};  ///< in the winning shape's frame; analytic shapes: from the centre, or p_world
+    glm::dvec3 p_local{0.0};  ///< where patterns are asked (pattern_point.h), in the winning shape's frame
     std::uint32_t material = 0;
     std::optional<glm::dvec3> color;  ///< in place of the material's
     double value = 0.0;               ///< the field's there; analytic shapes: 0

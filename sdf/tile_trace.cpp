@@ -290,6 +290,22 @@ void TileTracer::trace(int x_px, int y_px, std::vector<TileRay>& rays, std::span
     TileWork(*this, program, counts).run(x_px, y_px, rays);
 }
 
+void TileTracer::traceLoose(std::span<const FieldRay> rays, std::span<TraceHit> hits,
+                            TileCounts& counts) const {
+    const HitProgram program{settings_, hits};
+    const double scale = sign_ / tape_.lipschitz;
+    LaneQueue<HitProgram::Asker> queue(cells_, scale, counts);
+    std::vector<HitProgram::Asker> askers;
+    for (std::size_t first = 0; first < rays.size(); first += kRaysAtOnce) {
+        askers.clear();
+        for (std::size_t i = first; i < std::min(rays.size(), first + kRaysAtOnce); ++i)
+            askers.push_back(program.start(rays[i], static_cast<std::uint32_t>(i)));
+        queue.serve(askers);
+        for (const HitProgram::Asker& asker : askers) program.keep(asker, 1.0 / scale, counts);
+    }
+    counts.rays += rays.size();
+}
+
 void TileTracer::traceCones(int x_px, int y_px, std::vector<TileRay>& rays, const ConeSettings& cones,
                             std::span<ConeHits> hits, TileCounts& counts) const {
     const ConeProgram program{settings_, cones, hits};

@@ -51,6 +51,8 @@ class TileTracer {
     /// The same of the cones around the rays.
     void traceCones(int x_px, int y_px, std::vector<TileRay>& rays, const ConeSettings& cones,
                     std::span<ConeHits> hits, TileCounts& counts) const;
+    /// Rays that need no tile, from their own beginnings; neighbours should be near each other.
+    void traceLoose(std::span<const FieldRay> rays, std::span<TraceHit> hits, TileCounts& counts) const;
 
   private:
     template <class Program>

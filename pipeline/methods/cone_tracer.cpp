@@ -37,9 +37,9 @@ class ConeTracer : public FieldTracer {
         return out;
     }
     FieldCones traceCones(const FieldWindow& window) override { return device_->traceCones(window); }
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                  std::vector<sdf::SurfaceHit> hits) override {
-        return device_->shade(rays, std::move(hits));
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+                                  std::vector<std::uint32_t>* sights) override {
+        return device_->shade(rays, std::move(hits), sights);
     }
     RayBatches& batches() override { return device_->batches(); }
 

@@ -5,6 +5,7 @@
 #include "pipeline/device_error.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/cone_tracer.h"
+#include "pipeline/methods/cone_x.h"
 #include "pipeline/methods/field_frame.h"
 #include "pipeline/methods/post_process.h"
 #include "pipeline/methods/registry.h"
@@ -106,6 +107,15 @@ MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const Fiel
     settings.cones->coverage /= per_side;
     if (per_side == 1) return tracePixels(all, settings, coneTracerMaker(make));
     return traceFiltered(all, settings, per_side, coneTracerMaker(make));
+}
+
+MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTracerMaker& make) {
+    const Scene scene = sceneOfCones(in);
+    const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
+    FieldSettings settings;
+    settings.cones.emplace();
+    settings.cones->relaxed = true;
+    return tracePixels(all, settings, coneXMaker(make));
 }
 
 MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {

@@ -11,17 +11,13 @@
 #include "pipeline/write_image.h"
 
 namespace edgewise {
-namespace {
 
-/// Black, blue, red, yellow, white at quarters, as linear light.
-glm::dvec3 heat(double x) {
+glm::dvec3 heatColor(double x) {
     static const glm::dvec3 stops[]{{0, 0, 0}, {0, 0, 0.6}, {0.8, 0, 0.1}, {1, 0.8, 0}, {1, 1, 1}};
     const double at = std::clamp(x, 0.0, 1.0) * 4.0;
     const int i = std::min(static_cast<int>(at), 3);
     return glm::mix(stops[i], stops[i + 1], at - i);
 }
-
-}  // namespace
 
 FieldPictures::FieldPictures(const std::optional<std::filesystem::path>& folder, const PixelBox& crop)
     : folder_(folder), crop_(crop) {
@@ -54,7 +50,7 @@ double FieldPictures::writePicture(const std::string& name, bool colors, double 
     ImageBuffer picture(crop_);
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         const double part = white > 0.0 ? value(sums_[i]) / white : 0.0;
-        picture.rgba[i] = glm::dvec4(colors ? heat(part) : glm::dvec3(std::min(part, 1.0)), 1.0);
+        picture.rgba[i] = glm::dvec4(colors ? heatColor(part) : glm::dvec3(std::min(part, 1.0)), 1.0);
     }
     writeImage(*folder_ / name, picture, {crop_.x1, crop_.y1, 0.0, {}});
     return white;

@@ -5,6 +5,9 @@
 
 namespace edgewise {
 
+/// Black, blue, red, yellow, white at quarters of 0 to 1, as linear light.
+glm::dvec3 heatColor(double x);
+
 /// Writes into the folder, of the mean over each pixel's samples:
 ///     evaluations.png   of the field; black is 0, white the most, between them through blue, red, yellow
 ///     iterations.png    when the rays ended (Figure 7 of Keinert et al. 2014)

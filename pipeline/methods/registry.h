@@ -33,6 +33,7 @@ MethodResult tracePath(const MethodSpec& spec, const MethodInput& input, const F
 MethodResult traceSphere(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 MethodResult traceCtss(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
+MethodResult traceCtssX(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& input, const FieldTracerMaker& make);
 /// The same with the device that suits the method and the scene.

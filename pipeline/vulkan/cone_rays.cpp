@@ -7,12 +7,12 @@
 namespace edgewise::vulkan {
 namespace {
 
-static_assert(sizeof(GpuConeState) == 44 && sizeof(GpuGroup) == 8);
+static_assert(sizeof(GpuConeState) == 44 && sizeof(GpuGroup) == 12);
 
 }  // namespace
 
 sdf::ConeGroup GpuGroup::group() const {
-    return {std::bit_cast<float>(t_hard & 0x7fffffffu), least, (t_hard >> 31) != 0};
+    return {std::bit_cast<float>(t_hard & 0x7fffffffu), entry_t, least, (t_hard >> 31) != 0};
 }
 
 double coneReach(const sdf::ConeSettings& settings) {

@@ -19,7 +19,7 @@ struct GpuConeState {
 /// EwGroup.
 struct GpuGroup {
     std::uint32_t t_hard;
-    float least;
+    float entry_t, least;
     sdf::ConeGroup group() const;
 };
 

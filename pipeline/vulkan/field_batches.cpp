@@ -123,7 +123,8 @@ void FieldBatches::describeMap(std::span<const sdf::TravellingRay> rays, std::sp
     }
 }
 
-void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits) {
+void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits,
+                               bool described) {
     std::vector<Question> questions(rays.size());
     std::vector<GpuRay> asked(wholeTiles(rays.size()));
     eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
@@ -134,6 +135,7 @@ void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::sp
         for (std::size_t i = first; i < last; ++i)
             hits[i] = rays_ ? answer(rays[i], questions[i], answers.states[i], answers.hits[i])
                             : questions[i].closed;
+        if (!described) return;
         std::vector<sdf::SurfaceHit*> of_field;
         for (std::size_t i = first; i < last; ++i)
             if (hits[i].hit && hits[i].ofField()) of_field.push_back(&hits[i]);
@@ -159,9 +161,21 @@ std::vector<sdf::SurfaceHit> FieldBatches::nearest(std::span<const sdf::Travelli
     std::vector<sdf::SurfaceHit> hits(rays.size());
     for (std::size_t first = 0; first < rays.size(); first += most_) {
         const std::size_t count = std::min(most_, rays.size() - first);
-        nearestPart(rays.subspan(first, count), std::span(hits).subspan(first, count));
+        nearestPart(rays.subspan(first, count), std::span(hits).subspan(first, count), true);
     }
     return hits;
+}
+
+std::vector<double> FieldBatches::depths(std::span<const sdf::TravellingRay> rays) {
+    std::vector<double> depths(rays.size(), HUGE_VAL);
+    std::vector<sdf::SurfaceHit> hits(std::min(most_, rays.size()));
+    for (std::size_t first = 0; first < rays.size(); first += most_) {
+        const std::size_t count = std::min(most_, rays.size() - first);
+        nearestPart(rays.subspan(first, count), std::span(hits).first(count), false);
+        for (std::size_t i = 0; i < count; ++i)
+            if (hits[i].hit) depths[first + i] = hits[i].t;
+    }
+    return depths;
 }
 
 std::vector<char> FieldBatches::occluded(std::span<const sdf::TravellingRay> rays) {

@@ -32,6 +32,7 @@ class FieldBatches : public RayBatches {
     /// Where a ray's sign is 0, the field's where it begins counts. Neighbours of 64 should be near each
     /// other.
     std::vector<sdf::SurfaceHit> nearest(std::span<const sdf::TravellingRay> rays) override;
+    std::vector<double> depths(std::span<const sdf::TravellingRay> rays) override;
     std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override;
 
     /// The ray through the field alone, of which all within `reach` pixel radii counts.
@@ -54,7 +55,8 @@ class FieldBatches : public RayBatches {
     };
     GpuRay ask(const sdf::TravellingRay& ray, Question& question) const;
     FieldAnswers traceField(const std::vector<GpuRay>& rays, bool with_hits);
-    void nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits);
+    void nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits,
+                     bool described);
     void occludedPart(std::span<const sdf::TravellingRay> rays, std::span<char> hidden);
     sdf::SurfaceHit answer(const sdf::TravellingRay& ray, const Question& question, const GpuRayState& state,
                            const GpuHit& hit) const;

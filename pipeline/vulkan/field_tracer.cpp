@@ -80,11 +80,11 @@ class VulkanFieldTracer : public FieldTracer {
         });
     }
 
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                  std::vector<sdf::SurfaceHit> hits) override {
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+                                  std::vector<std::uint32_t>* sights) override {
         return withDeviceErrors([&] {
             const auto start = std::chrono::steady_clock::now();
-            auto colors = shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_);
+            auto colors = shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_, sights);
             seconds_ += secondsSince(start);
             return colors;
         });

@@ -7,7 +7,7 @@ struct EwConeState {
 };
 struct EwGroup {
     uint t_hard;  // t's bits, and the sign's: whether it is hard
-    float least;
+    float entry_t, least;
 };
 const uint ew_open_bit = 4u, ew_hard_bit = 8u, ew_negative_bit = 16u, ew_longer_bit = 32u;
 layout(std430, binding = 1) buffer EwConeStates { EwConeState ew_cone_states[]; };
@@ -78,7 +78,7 @@ void main() {
         if (++evaluations >= ew_most_iterations) s = ew_coneStopped(s);
         if (s.closed) {
             uint hard = s.hard ? 0x80000000u : 0u;
-            ew_groups[groups * ew_count + i] = EwGroup(floatBitsToUint(ew_coneSampleAt(s)) | hard, ew_coneLeast(s));
+            ew_groups[groups * ew_count + i] = EwGroup(floatBitsToUint(ew_coneSampleAt(s)) | hard, s.entry_t, ew_coneLeast(s));
             ++groups;
         }
     }

@@ -164,6 +164,58 @@ TEST(Lottes, AThinWiresEnergyHardlyDependsOnTheShift) {
         }
 }
 
+/// A thin white solid under a sun that throws shadows, seen obliquely; `made` adds it to the tree.
+template <class Make>
+FieldPicture thinSolid(const Make& make) {
+    FieldPicture picture = test::flatPicture(48, 48);
+    sdf::SurfaceMaterial white;
+    white.color = glm::dvec3(1.0);
+    picture.field->materials = {white};
+    sdf::SurfaceLight sun;
+    sun.direction_world = glm::normalize(glm::dvec3(-0.3, -0.2, -1.0)), sun.intensity = M_PI;
+    picture.field->lights = {sun};
+    sdf::Tree& tree = picture.field->tree;
+    tree.root = tree.add(sdf::Kind::kTranslate, {0, 0, -40}, {make(tree)});
+    return picture;
+}
+
+TEST(Lottes, ThinSolidsThrowNoShadowOnTheirLitSide) {
+    // Thinner than the reach and thicker, so that rays end within and beyond; its near side is lit whole.
+    for (const double thickness : {0.1, 0.3, 0.7, 1.0})
+        for (const double degrees : {20.0, 50.0}) {
+            FieldPicture picture = thinSolid([&](sdf::Tree& tree) {
+                const auto disk = tree.add(sdf::Kind::kBox, {40, 40, thickness}, {}, 0);
+                return tree.add(sdf::Kind::kRotate, {0, 1, 0, degrees}, {disk});
+            });
+            const double angle = degrees * M_PI / 180.0;
+            const glm::dvec3 normal(std::sin(angle), 0.0, std::cos(angle));
+            const double lit = -dot(picture.field->lights[0].direction_world, normal);
+            const ImageBuffer image = picture.made("lottes:grain=0,distance=0.75").image;
+            double darkest = 1.0;
+            for (int y = 8; y < 40; ++y)
+                for (int x = 16; x < 32; ++x)
+                    darkest = std::min(darkest, image.rgba[image.index(x, y)].r / lit);
+            EXPECT_NEAR(darkest, 1.0, 1e-9) << thickness << " thick, at " << degrees << " degrees";
+        }
+    FieldPicture ball = thinSolid([](sdf::Tree& tree) {
+        const auto sphere = tree.add(sdf::Kind::kSphere, {20}, {}, 0);
+        return tree.add(sdf::Kind::kShell, {0.6}, {sphere});
+    });
+    const ImageBuffer image = ball.made("lottes:grain=0,distance=0.75").image;
+    double worst = 0.0;
+    for (int y = 8; y < 40; ++y)
+        for (int x = 8; x < 40; ++x) {
+            const glm::dvec2 p(x - 23.5, 23.5 - y);
+            const double z = std::sqrt(20.3 * 20.3 - dot(p, p));
+            const double lit = -dot(ball.field->lights[0].direction_world, glm::dvec3(p, z)) / 20.3;
+            if (dot(p, p) > 14.0 * 14.0) continue;
+            worst = std::max(worst, std::abs(image.rgba[image.index(x, y)].r - lit));
+        }
+    // 11 rays lie within 2.5 px, their mean within a pixel of the centre, and the shade changes by at most 1
+    // in 20.3.
+    EXPECT_LT(worst, 1.5 / 20.3);
+}
+
 TEST(Lottes, ThreadsAndCropsDoNotShow) {
     FieldPicture picture = slantedEdge(24);
     picture.options.frames = 3;

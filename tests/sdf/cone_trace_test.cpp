@@ -51,7 +51,7 @@ TEST(ConeTrace, AMaskIsThePointsBelowItsLine) {
     std::uniform_real_distribution<> number(-1.0, 1.0);
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 normal = glm::normalize(glm::dvec3(number(random), number(random), 0.3));
-        const ConeGroup group{0.0, number(random), false};
+        const ConeGroup group{0.0, 0.0, number(random), false};
         const glm::dvec2 across = glm::normalize(glm::dvec2(normal.x, -normal.y));
         for (const bool four_by_eight : {false, true}) {
             ConeSettings settings;

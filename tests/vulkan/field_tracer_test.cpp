@@ -118,6 +118,33 @@ TEST_F(FieldOnDevice, ASphereIsWhereItsEquationSays) {
     EXPECT_GT(hits(samples), 600u);
 }
 
+TEST_F(FieldOnDevice, AFaceOnABoundaryOfItsPatternShowsTheCellsBelowIt) {
+    constexpr double kCell = 0.25;
+    Setting s(64);
+    sdf::SurfaceMaterial& checker = s.field->materials[0];
+    checker.shading = sdf::SurfaceMaterial::Shading::kUnlit;
+    checker.color = glm::dvec3(1.0), checker.second_color = glm::dvec3(0.25);
+    checker.pattern = sdf::SurfaceMaterial::Pattern::kChecker, checker.pattern_size = kCell;
+    s.field->tree.root =
+        s.field->tree.add(Kind::kBox, {8, 8, 2}, {}, 0);  // its face is z = 1, 3 from the eye
+    const FieldSamples samples = s.trace({});
+    int seen[2] = {0, 0}, wrong = 0;
+    for (int i = 0; i < 64 * 64; ++i) {
+        const double pixel = 3.0 * std::tan(M_PI / 8) / 32.0;
+        const glm::dvec2 p((i % 64 + 0.5 - 32.0) * pixel, (32.0 - i / 64 - 0.5) * pixel);
+        const glm::dvec2 within = p / kCell - glm::floor(p / kCell);
+        const double margin = pixel / kCell;
+        if (std::min(within.x, within.y) < margin || std::max(within.x, within.y) > 1.0 - margin) continue;
+        const double level = 1.0 / kCell - 1.0;
+        const bool second =
+            std::abs(std::fmod(std::floor(p.x / kCell) + std::floor(p.y / kCell) + level, 2.0)) == 1.0;
+        ++seen[second];
+        wrong += samples.color[i].r != (second ? 0.25 : 1.0);
+    }
+    EXPECT_GT(std::min(seen[0], seen[1]), 500);
+    EXPECT_EQ(wrong, 0);
+}
+
 TEST_F(FieldOnDevice, EveryRelaxationFindsTheSameSurface) {
     Setting s(96);
     addSphereMinusBox(s.field->tree);
