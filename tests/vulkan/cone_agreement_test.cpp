@@ -190,7 +190,7 @@ TEST_F(ConesOnDevice, OfRawGlslAreATreesOfTheSameSolid) {
 
 /// Cones that pause at every group, and go on.
 TEST_F(ConesOnDevice, InRoundsAreTheSameBits) {
-    for (const char* name : {"wires", "thin", "spheres-50"}) {
+    for (const char* name : {"thin", "spheres-50"}) {
         Picture picture(loadScene(findScene(name)));
         const FieldCones whole = picture.cones(makeVulkanFieldTracer);
         picture.settings.cones->shade_at_once = true;
