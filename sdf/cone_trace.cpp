@@ -23,6 +23,7 @@ cones::ConeRules coneRules(const FieldRay& ray, const TraceSettings& trace, cons
     rules.hard = trace.threshold / scale;
     rules.relaxed = settings.relaxed;
     rules.backtrace = settings.backtrace;
+    rules.overstep = trace.relaxation != Relaxation::kNone;
     return rules;
 }
 
@@ -34,26 +35,24 @@ ConeTrace::ConeTrace(const FieldRay& ray, const TraceSettings& trace, const Cone
 void ConeTrace::take(double value) {
     state_ = cones::coneTake(rules_, state_, value);
     ++hits_.evaluations;
-    if (asks() && hits_.evaluations >= most_steps_) {
-        state_.end = cones::kConeFar;
-        state_.closed = state_.closed || state_.open;
-    }
+    if (hits_.evaluations >= most_steps_) state_ = cones::coneStopped(state_);
     if (state_.closed) keepGroup();
     hits_.full = state_.end == cones::kConeFull;
 }
 
 void ConeTrace::keepGroup() {
     const int at = std::min(hits_.count, ConeHits::kMostGroups - 1);
-    // What fills the cone fills the mask, whose points may lie outside of the cone.
-    const bool fills = state_.end == cones::kConeFull && state_.least <= -1.0;
-    hits_.groups[at] = {cones::coneSampleAt(state_), state_.entry_t, fills ? -2.0 : state_.least,
-                        state_.hard};
+    hits_.groups[at] = {cones::coneSampleAt(state_), state_.entry_t, cones::coneLeast(state_), state_.hard};
     hits_.count = at + 1;
+}
+
+bool fillsMask(const ConeGroup& group, const ConeSettings& settings) {
+    return (settings.relaxed && group.hard) || group.least <= -kSqrt2;
 }
 
 std::uint32_t groupMask(const ConeGroup& group, const glm::dvec3& normal_world, const glm::dvec3& right_world,
                         const glm::dvec3& down_world, const ConeSettings& settings) {
-    if (settings.relaxed && group.hard) return ~0u;
+    if (fillsMask(group, settings)) return ~0u;
     return cones::planeMask(glm::dot(normal_world, right_world), glm::dot(normal_world, down_world),
                             group.least, settings.four_by_eight);
 }

@@ -52,6 +52,10 @@ class ConeTrace {
 /// times the coverage.
 cones::ConeRules coneRules(const FieldRay& ray, const TraceSettings& trace, const ConeSettings& settings);
 
+/// Whether a group has all bits of the mask, whatever its normal: no point of the square around the base is
+/// sqrt(2) away from its middle.
+bool fillsMask(const ConeGroup& group, const ConeSettings& settings);
+
 /// A group's bits: of a plane through its sample, `normal_world` unit, seen along a ray with these unit axes
 /// across it, x to the right and y down.
 std::uint32_t groupMask(const ConeGroup& group, const glm::dvec3& normal_world, const glm::dvec3& right_world,

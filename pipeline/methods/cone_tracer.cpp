@@ -1,5 +1,6 @@
 #include "pipeline/methods/cone_tracer.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 namespace edgewise {
 namespace {
 
+constexpr std::size_t kTile = 8;
 /// Samples whose groups are held at once.
 constexpr std::size_t kSamplesAtOnce = std::size_t{1} << 17;
 
@@ -76,7 +78,7 @@ class ConeTracer : public FieldTracer {
                 window.positions_px.begin() + static_cast<std::ptrdiff_t>(before + part.samples()));
         const FieldCones cones = device_->traceCones(part);
         watch_.lap();
-        Seen seen = seenOf(cones);
+        Seen seen = seenOf(cones, part.stride());
         watch_.book("masks", stages_);
         const std::vector<glm::dvec4> colors = device_->shade(seen.rays, std::move(seen.surfaces));
         watch_.lap();
@@ -89,28 +91,67 @@ class ConeTracer : public FieldTracer {
         watch_.book("blend", stages_);
     }
 
-    Seen seenOf(const FieldCones& cones) const {
+    Seen seenOf(const FieldCones& cones, std::size_t stride) const {
         Seen seen;
         seen.bits.resize(cones.groups.size());
-        tbb::parallel_for(std::size_t(0), cones.samples(),
-                          [&](std::size_t i) { maskSample(cones, i, seen.bits); });
-        for (std::size_t i = 0; i < cones.samples(); ++i)
-            for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
-                if (seen.bits[g] == 0) continue;
-                seen.group.push_back(g);
-                seen.rays.push_back(cones.rays[i]);
-                seen.surfaces.push_back(cones.surfaces[g]);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cones.samples(), 256), [&](const auto& part) {
+            for (std::size_t i = part.begin(); i != part.end(); ++i) maskSample(cones, i, seen.bits);
+        });
+        const std::vector<std::uint32_t> samples = addInOrder(cones, stride, seen);
+        seen.rays.resize(seen.group.size()), seen.surfaces.resize(seen.group.size());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.group.size(), 256), [&](const auto& part) {
+            for (std::size_t k = part.begin(); k != part.end(); ++k) {
+                seen.rays[k] = cones.rays[samples[k]];
+                seen.surfaces[k] = cones.surfaces[seen.group[k]];
             }
+        });
         return seen;
     }
 
+    /// The first group that is seen of each sample, tile by tile, then the second of those that have more:
+    /// devices trace what goes on from neighbours together. Gives their samples.
+    static std::vector<std::uint32_t> addInOrder(const FieldCones& cones, std::size_t stride, Seen& seen) {
+        std::vector<std::vector<std::uint32_t>> samples(1), groups(1);
+        const auto addSample = [&](std::size_t i) {
+            std::size_t rank = 0;
+            for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
+                if (seen.bits[g] == 0) continue;
+                if (rank == groups.size()) groups.emplace_back(), samples.emplace_back();
+                samples[rank].push_back(static_cast<std::uint32_t>(i)), groups[rank].push_back(g);
+                ++rank;
+            }
+        };
+        forTiles(cones.samples(), stride, addSample);
+        for (std::size_t rank = 1; rank < groups.size(); ++rank) {
+            groups[0].insert(groups[0].end(), groups[rank].begin(), groups[rank].end());
+            samples[0].insert(samples[0].end(), samples[rank].begin(), samples[rank].end());
+        }
+        seen.group = std::move(groups[0]);
+        return std::move(samples[0]);
+    }
+
+    /// Samples of 8 x 8 neighbours one after the other.
+    template <class Work>
+    static void forTiles(std::size_t samples, std::size_t stride, const Work& work) {
+        const std::size_t rows = samples / stride;
+        for (std::size_t y = 0; y < rows; y += kTile)
+            for (std::size_t x = 0; x < stride; x += kTile)
+                for (std::size_t row = y; row < std::min(y + kTile, rows); ++row)
+                    for (std::size_t column = x; column < std::min(x + kTile, stride); ++column)
+                        work(row * stride + column);
+    }
+
     void maskSample(const FieldCones& cones, std::size_t i, std::vector<std::uint32_t>& bits) const {
+        const std::uint32_t first = cones.begin[i], last = cones.begin[i + 1];
+        if (first == last) return;
+        // Most samples are filled by their only group, whose normal does not matter.
+        if (sdf::fillsMask(cones.groups[first], settings_)) return void(bits[first] = ~0u);
         sdf::ConeBlend blend(settings_);
         const glm::dvec3& ahead = cones.rays[i].ray.direction_world;
         const glm::dvec3 right =
             glm::normalize(grid_.right_world - ahead * glm::dot(grid_.right_world, ahead));
         const glm::dvec3 down = glm::normalize(grid_.down_world - ahead * glm::dot(grid_.down_world, ahead));
-        for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1] && blend.open(); ++g) {
+        for (std::uint32_t g = first; g < last && blend.open(); ++g) {
             const glm::dvec3& normal = cones.surfaces[g].normal_world;
             bits[g] = blend.uncovered(sdf::groupMask(cones.groups[g], normal, right, down, settings_));
             blend.add(bits[g], glm::dvec4(0.0));

@@ -43,14 +43,19 @@ FieldBatches::FieldBatches(const sdf::FieldScene& scene, const sdf::Tape& tape, 
       cancelled_(std::move(cancelled)),
       closed_(scene, tape, settings) {}
 
-/// Where the ray leaves the sphere, if what it may hit there is no higher than the sphere's level.
-double FieldBatches::lastT(const GpuRay& ray, double t_max) const {
-    if (!std::isfinite(around_.sphere.w)) return t_max;
-    const auto [enters, leaves] = sdf::meetSphere(vectorOf(ray.origin), vectorOf(ray.direction),
-                                                  glm::dvec3(around_.sphere), around_.sphere.w);
+double FieldSphere::lastT(const GpuRay& ray, double t_max, double reach) const {
+    if (!std::isfinite(sphere.w)) return t_max;
+    const auto [enters, leaves] =
+        sdf::meetSphere(vectorOf(ray.origin), vectorOf(ray.direction), glm::dvec3(sphere), sphere.w);
     const double last = std::min(t_max, std::max(leaves, 0.0));
     const double radius = std::max<double>(ray.pixel_radius, ray.pixel_radius + ray.pixel_slope * last);
-    return std::max(settings_.threshold, 1.0) * radius <= around_.level ? std::min(t_max, leaves) : t_max;
+    return reach * radius <= level ? std::min(t_max, leaves) : t_max;
+}
+
+GpuRay FieldBatches::askWithin(const sdf::TravellingRay& ray, double reach) const {
+    GpuRay made = gpuRay(ray.ray, ray.sign);
+    made.t_max = static_cast<float>(around_.lastT(made, made.t_max, reach));
+    return made.t_min < made.t_max ? made : GpuRay{};
 }
 
 GpuRay FieldBatches::ask(const sdf::TravellingRay& ray, Question& question) const {
@@ -63,7 +68,7 @@ GpuRay FieldBatches::ask(const sdf::TravellingRay& ray, Question& question) cons
     question.t_end = part.t_max;
     GpuRay made = question.backwards ? gpuRay(sdf::SceneTracer::reversed(whole, part.t_max), 1.0)
                                      : gpuRay(part, ray.sign);
-    made.t_max = static_cast<float>(lastT(made, made.t_max));
+    made.t_max = static_cast<float>(around_.lastT(made, made.t_max, std::max(settings_.threshold, 1.0)));
     return made.t_min < made.t_max ? made : GpuRay{};
 }
 
@@ -82,21 +87,40 @@ sdf::SurfaceHit FieldBatches::answer(const sdf::TravellingRay& ray, const Questi
     out.t = question.backwards ? question.t_end - hit.t : hit.t;
     out.value = static_cast<double>(hit.value) * state.sign * shaders_.lipschitz;
     out.p_world = ray.ray.origin_world + ray.ray.direction_world * out.t;
-    if (!scene_.glsl) return out;
-    out.p_local = out.p_world;
-    out.normal_world = glm::normalize(vectorOf(hit.normal)) * static_cast<double>(state.sign);
-    out.material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
-    if (shaders_.user_albedo) out.color = vectorOf(hit.color);
+    if (scene_.glsl) takeMap(out, hit, state.sign);
     return out;
 }
 
-/// Of a tree's hits among neighbours.
-void FieldBatches::describe(std::span<sdf::SurfaceHit> hits) const {
-    if (tape_.size() == 0) return;
-    std::vector<sdf::SurfaceHit*> of_field;
-    for (sdf::SurfaceHit& hit : hits)
-        if (hit.hit && hit.ofField()) of_field.push_back(&hit);
-    sdf::describeHits(tape_, of_field, scene_.materials.size(), settings_.prune);
+void FieldBatches::takeMap(sdf::SurfaceHit& hit, const GpuHit& of, double sign) const {
+    hit.p_local = hit.p_world;
+    hit.normal_world = glm::normalize(vectorOf(of.normal)) * sign;
+    hit.material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+    if (shaders_.user_albedo) hit.color = vectorOf(of.color);
+}
+
+sdf::SurfaceHit FieldBatches::surfaceAt(const sdf::TravellingRay& ray, double t) {
+    sdf::SurfaceHit hit;
+    hit.hit = true, hit.inside = ray.sign < 0.0, hit.t = t;
+    hit.p_world = ray.ray.origin_world + ray.ray.direction_world * t;
+    return hit;
+}
+
+void FieldBatches::describeTree(std::span<sdf::SurfaceHit*> hits) const {
+    if (tape_.size() > 0) sdf::describeHits(tape_, hits, scene_.materials.size(), settings_.prune);
+}
+
+void FieldBatches::describeMap(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits) {
+    for (std::size_t first = 0; first < rays.size(); first += most_) {
+        const std::size_t count = std::min(most_, rays.size() - first);
+        std::vector<GpuRay> asked(wholeTiles(count));
+        std::vector<float> at(asked.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            asked[i] = gpuRay(rays[first + i].ray, rays[first + i].sign);
+            at[i] = static_cast<float>(hits[first + i].t);
+        }
+        const std::span<const GpuHit> found = rays_->describe(asked, at);
+        for (std::size_t i = 0; i < count; ++i) takeMap(hits[first + i], found[i], rays[first + i].sign);
+    }
 }
 
 void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits,
@@ -111,7 +135,11 @@ void FieldBatches::nearestPart(std::span<const sdf::TravellingRay> rays, std::sp
         for (std::size_t i = first; i < last; ++i)
             hits[i] = rays_ ? answer(rays[i], questions[i], answers.states[i], answers.hits[i])
                             : questions[i].closed;
-        if (described) describe(hits.subspan(first, last - first));
+        if (!described) return;
+        std::vector<sdf::SurfaceHit*> of_field;
+        for (std::size_t i = first; i < last; ++i)
+            if (hits[i].hit && hits[i].ofField()) of_field.push_back(&hits[i]);
+        describeTree(of_field);
     });
 }
 

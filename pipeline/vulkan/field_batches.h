@@ -16,6 +16,9 @@ namespace edgewise::vulkan {
 struct FieldSphere {
     glm::dvec4 sphere{0.0, 0.0, 0.0, INFINITY};
     double level = 0.0;
+    /// Where the ray leaves the sphere, if what comes within `reach` pixel radii there is no higher than the
+    /// level; else t_max.
+    double lastT(const GpuRay& ray, double t_max, double reach) const;
 };
 
 class FieldBatches : public RayBatches {
@@ -34,6 +37,17 @@ class FieldBatches : public RayBatches {
                                           std::span<const double> depths) override;
     std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override;
 
+    /// The ray through the field alone, of which all within `reach` pixel radii counts.
+    GpuRay askWithin(const sdf::TravellingRay& ray, double reach) const;
+    /// A sphere for lists.
+    const glm::dvec4& bounds() const { return lists_; }
+    /// Points on rays as hits of the field, not described yet.
+    static sdf::SurfaceHit surfaceAt(const sdf::TravellingRay& ray, double t);
+    /// Gives hits of the field, neighbours, their normals and materials: of a tree; of a map on all rays at
+    /// once, by the device.
+    void describeTree(std::span<sdf::SurfaceHit*> hits) const;
+    void describeMap(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits);
+
   private:
     /// What is asked of the device, and what the host knows already.
     struct Question {
@@ -42,14 +56,13 @@ class FieldBatches : public RayBatches {
         bool backwards = false;
     };
     GpuRay ask(const sdf::TravellingRay& ray, Question& question) const;
-    double lastT(const GpuRay& ray, double t_max) const;
     FieldAnswers traceField(const std::vector<GpuRay>& rays, bool with_hits);
     void nearestPart(std::span<const sdf::TravellingRay> rays, std::span<sdf::SurfaceHit> hits,
                      bool described);
     void occludedPart(std::span<const sdf::TravellingRay> rays, std::span<char> hidden);
     sdf::SurfaceHit answer(const sdf::TravellingRay& ray, const Question& question, const GpuRayState& state,
                            const GpuHit& hit) const;
-    void describe(std::span<sdf::SurfaceHit> hits) const;
+    void takeMap(sdf::SurfaceHit& hit, const GpuHit& of, double sign) const;
 
     const sdf::FieldScene& scene_;
     const sdf::Tape& tape_;

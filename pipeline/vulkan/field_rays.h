@@ -1,28 +1,10 @@
 // Rays through a scene's field on the device: any rays, 64 neighbours a tile.
 #pragma once
 
-#include <functional>
-#include <glm/glm.hpp>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include "pipeline/vulkan/compute_pass.h"
-#include "pipeline/vulkan/field_shader.h"
-#include "pipeline/vulkan/pass_graph.h"
+#include "pipeline/vulkan/field_tiles.h"
 #include "sdf/reals.h"
-#include "sdf/sphere_trace.h"
 
 namespace edgewise::vulkan {
-
-/// EwRay of shaders/field/header.glsl: a FieldRay in float. t_max < t_min: nothing is traced.
-struct GpuRay {
-    float origin[3], direction[3];
-    float t_min = 0.0f, t_max = -1.0f, pixel_radius = 0.0f, pixel_slope = 0.0f;
-    float sign = 0.0f;  ///< of the field; 0: of its value where the ray begins
-};
-
-GpuRay gpuRay(const sdf::FieldRay& ray, double sign);
 
 enum class FieldEnd : std::uint32_t { kRunning, kSurface, kCandidate, kFar, kOutOfSteps, kEmpty };
 
@@ -46,13 +28,6 @@ struct GpuHit {
     float t, value, normal[3], color[3];
 };
 
-struct FieldCounts {
-    std::uint64_t rays = 0, evaluations = 0, iterations = 0, failed_steps = 0;
-    std::uint64_t cone_evaluations = 0, tiles = 0, empty_tiles = 0, dispatches = 0;
-    std::uint64_t lists = 0, list_rows = 0, long_lists = 0;
-    void add(const FieldCounts& more);
-};
-
 /// The answers of a batch of rays, by ray; views into buffers, until the next batch.
 struct FieldAnswers {
     std::span<const GpuRayState> states;
@@ -61,48 +36,32 @@ struct FieldAnswers {
 
 class FieldRays {
   public:
-    /// `turns`: of loops that a dispatch may take; 0: what the device can.
     FieldRays(const Device& device, const FieldShaders& shaders, const sdf::TraceSettings& settings,
-              bool prune, std::uint32_t turns = 0);
+              FieldTiles& tiles);
 
     /// At most this many rays at once.
     static std::size_t most(const Device& device, const FieldShaders& shaders, std::size_t bytes);
 
     /// A multiple of 64 rays, tile by tile. `bounds`: a sphere that holds what is listed; lists are made for
-    /// the depths within. Throws FailureError naming a point where the field is no number, or the line of a
-    /// user's loop without end; Interrupted when `cancelled` says so. `with_hits`: else states alone count.
+    /// the depths within. Throws what FieldTiles::run throws; Interrupted when `cancelled` says so.
+    /// `with_hits`: else states alone count.
     FieldAnswers trace(std::span<const GpuRay> rays, const glm::dvec4& bounds,
                        const std::function<bool()>& cancelled = {}, bool with_hits = true);
+    /// A map's slope and colour at a depth of each ray: a multiple of 64. Views, until the next batch.
+    std::span<const GpuHit> describe(std::span<const GpuRay> rays, std::span<const float> t);
 
-    const FieldCounts& counts() const { return counts_; }
-    const std::vector<PassTime>& times() const { return times_; }
-    std::size_t bytes() const { return table_.bytes(); }
+    const FieldCounts& counts() const { return tiles_.counts(); }
 
   private:
-    struct Push {
-        std::uint32_t count, first, steps, fresh, pruned;
-    };
-    void runPass(const std::string& name, ComputePass& pass, Push push, std::uint32_t invocations);
-    void checkFlags() const;
-    std::uint32_t activeRays() const;
-    void traceCones(std::uint32_t tiles, const glm::dvec4& bounds, const std::function<bool()>& cancelled);
-    void makeLists(std::uint32_t tiles);
-    void finish(std::uint32_t count);
-    void countLists(std::span<const std::uint32_t> items);  ///< of a tile
+    void finish(std::uint32_t count, std::uint32_t first_turn);
     void countAnswers(std::span<const GpuRayState> states);
-    std::uint32_t evaluationsADispatch() const;
 
     const Device& device_;
     const FieldShaders& shaders_;
     sdf::TraceSettings settings_;
-    bool prune_;
-    std::uint32_t turns_;
+    FieldTiles& tiles_;
     ComputePass trace_, finish_;
-    std::unique_ptr<ComputePass> cones_, lists_;
-    Buffer table_, flags_;
-    std::unique_ptr<Buffer> rays_, states_, hits_, cone_table_, tiles_, items_;
-    FieldCounts counts_;
-    std::vector<PassTime> times_;
+    FieldBuffers buffers_;
 };
 
 }  // namespace edgewise::vulkan

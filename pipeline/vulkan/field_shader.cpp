@@ -8,11 +8,14 @@
 #include "field_cones_text.h"
 #include "field_field_text.h"
 #include "field_finish_text.h"
+#include "field_groups_text.h"
 #include "field_header_text.h"
 #include "field_lists_text.h"
 #include "field_prune_main_text.h"
 #include "field_prune_text.h"
+#include "field_sdf_cone_step_text.h"
 #include "field_sdf_trace_step_text.h"
+#include "field_trace_state_text.h"
 #include "field_trace_text.h"
 #include "pipeline/vulkan/user_glsl.h"
 
@@ -36,6 +39,19 @@ std::string numbersText(const sdf::TraceSettings& s, const FieldShaders& made) {
         made.corners(), sdf::glslNumber(s.omega), sdf::glslNumber(s.threshold),
         sdf::glslNumber(1.0 / made.lipschitz), flag(s.screen_candidate), flag(s.level_set), flag(s.prepass),
         kUserTurns, made.user_loops ? kMostUserTurns : 0xffffffffu);
+}
+
+/// The rules of coneRules(), but for the ray's own.
+std::string conesText(const sdf::TraceSettings& trace, const sdf::ConeSettings& cones) {
+    sdf::FieldRay unit;
+    unit.pixel_radius = 1.0;
+    const sdf::cones::ConeRules rules = sdf::coneRules(unit, trace, cones);
+    return fmt::format(
+        "const float ew_cone_scale = {}, ew_cone_alpha = {}, ew_cone_hard = {};\n"
+        "const bool ew_cone_relaxed = {}, ew_cone_backtrace = {}, ew_cone_overstep = {};\n"
+        "const uint ew_room = {}u;\n",
+        sdf::glslNumber(rules.radius), sdf::glslNumber(rules.alpha), sdf::glslNumber(rules.hard),
+        rules.relaxed, rules.backtrace, rules.overstep, groupsARound(cones));
 }
 
 bool isWord(char c) {
@@ -110,7 +126,7 @@ std::string batchesText(FieldShaders& made) {
 }  // namespace
 
 FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
-                              int height, bool prune) {
+                              int height, bool prune, const sdf::ConeSettings* cones) {
     FieldShaders made;
     UserGlsl user;
     if (scene.glsl) {
@@ -125,7 +141,6 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
     const bool batches = !made.field.batches.empty();
     std::string head = "#version 460\n";
     head += numbersText(settings, made);
-    head += withOwnNames(kField_sdf_trace_step);
     head += kField_header;
     if (batches) head += batchesText(made) + std::string(kField_lists);
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
@@ -145,15 +160,19 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
                              : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
     head += kField_field;
     made.file = scene.glsl ? scene.glsl->file : scene.source;
-    const auto compile = [&](std::string_view body) {
-        return compileWithUserGlsl(head + std::string(body) + "#undef fieldAt\n" + user.text, made.file);
+    const auto compile = [&](const std::vector<std::string_view>& bodies) {
+        std::string text = head;
+        for (const std::string_view body : bodies) text += body;
+        return compileWithUserGlsl(text + "#undef fieldAt\n" + user.text, made.file);
     };
-    made.trace = compile(kField_trace);
-    made.finish = compile(kField_finish);
-    if (settings.prepass || prune) made.cones = compile(kField_cones);
-    if (batches && prune)
-        made.prune =
-            compile(std::string(kField_prune) + made.field.prune_text + std::string(kField_prune_main));
+    const std::string trace_step = withOwnNames(kField_sdf_trace_step);
+    made.trace = compile({trace_step, kField_trace_state, kField_trace});
+    made.finish = compile({trace_step, kField_trace_state, kField_finish});
+    if (cones)
+        made.groups =
+            compile({conesText(settings, *cones), withOwnNames(kField_sdf_cone_step), kField_groups});
+    if (settings.prepass || prune) made.cones = compile({kField_cones});
+    if (batches && prune) made.prune = compile({kField_prune, made.field.prune_text, kField_prune_main});
     return made;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf/cone_trace.h"
 #include "sdf/field_scene.h"
 #include "sdf/glsl_text.h"
 #include "sdf/tape.h"
@@ -19,9 +20,10 @@ inline constexpr std::uint32_t kFieldSegments = 32, kFieldCoarseSegments = 4;
 inline constexpr std::uint32_t kFieldListRows = 128, kFieldCoarseRows = 512;
 
 struct FieldShaders {
-    std::vector<std::uint32_t> trace, finish, cones, prune;  ///< SPIR-V; prune: empty without batches
-    sdf::GlslField field;                                    ///< empty text: a raw map
-    std::string file;                                        ///< for messages
+    /// SPIR-V; prune: empty without batches; groups: without ConeSettings.
+    std::vector<std::uint32_t> trace, finish, cones, prune, groups;
+    sdf::GlslField field;  ///< empty text: a raw map
+    std::string file;      ///< for messages
     bool user_loops = false, user_albedo = false;
     double lipschitz = 1.0;
     std::uint32_t fine_stride = 0, tile_stride = 0;  ///< words of a fine segment's lists, of all of a tile's
@@ -33,6 +35,11 @@ struct FieldShaders {
 
 /// Throws InputError for GLSL that does not compile.
 FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
-                              int height, bool prune);
+                              int height, bool prune, const sdf::ConeSettings* cones = nullptr);
+
+/// Groups that a ray has room for before it pauses.
+inline std::uint32_t groupsARound(const sdf::ConeSettings& cones) {
+    return cones.shade_at_once ? 1 : 4;
+}
 
 }  // namespace edgewise::vulkan

@@ -7,13 +7,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "pipeline/field_plan.h"
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/field_tracer.h"
-#include "pipeline/vulkan/field_batches.h"
-#include "pipeline/vulkan/field_window.h"
+#include "pipeline/vulkan/cone_bands.h"
 
 namespace edgewise {
 namespace {
@@ -45,6 +45,7 @@ class VulkanFieldTracer : public FieldTracer {
     VulkanFieldTracer(const MethodInput& input, const FieldSettings& settings)
         : input_(input),
           settings_(settingsFor(input, settings.trace)),
+          cones_(settings.cones),
           scene_(*input.scene.field),
           tape_(scene_.glsl ? sdf::Tape{} : loweredTree(scene_)),
           grid_(rayGrid(input.camera, input.film, scene_.far)),
@@ -58,6 +59,7 @@ class VulkanFieldTracer : public FieldTracer {
         // The field's sign at the eye; a map's is found by its rays.
         if (!grid_.perspective) sign_ = 1.0;
         if (grid_.perspective && !scene_.glsl) sign_ = closed_.signAt(grid_.eye_world);
+        if (cones_ && tiles_) makeCones();
         setup_seconds_ = secondsSince(start);
     }
 
@@ -65,12 +67,27 @@ class VulkanFieldTracer : public FieldTracer {
         return withDeviceErrors([&] { return traceBands(window); });
     }
 
-    FieldCones traceCones(const FieldWindow&) override { throw DeviceError("cones are traced on the CPU"); }
+    FieldCones traceCones(const FieldWindow& window) override {
+        return withDeviceErrors([&] {
+            const auto start = std::chrono::steady_clock::now();
+            FieldCones out = cone_bands_ ? cone_bands_->trace(window) : emptyCones(window);
+            const std::uint64_t evaluations =
+                std::accumulate(out.evaluations.begin(), out.evaluations.end(), std::uint64_t{0});
+            primary_.evaluations += evaluations, primary_.primary += out.samples();
+            if (tiles_) tiles_->counts().evaluations += evaluations;
+            seconds_ += secondsSince(start);
+            return out;
+        });
+    }
 
     std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
                                   std::vector<std::uint32_t>* sights) override {
-        return withDeviceErrors(
-            [&] { return shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_, sights); });
+        return withDeviceErrors([&] {
+            const auto start = std::chrono::steady_clock::now();
+            auto colors = shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_, sights);
+            seconds_ += secondsSince(start);
+            return colors;
+        });
     }
 
     RayBatches& batches() override { return *batches_; }
@@ -78,8 +95,8 @@ class VulkanFieldTracer : public FieldTracer {
     void report(MethodResult& result) const override {
         result.device = device_->traits().name;
         result.setup_seconds += setup_seconds_;
-        if (rays_)
-            for (const PassTime& time : rays_->times()) result.stages.push_back({time.name, time.seconds});
+        if (tiles_)
+            for (const PassTime& time : tiles_->times()) result.stages.push_back({time.name, time.seconds});
         const double host = seconds_ - deviceSeconds();
         result.stages.push_back({"shade", std::max(host, 0.0)});
         addCounts(result.counts);
@@ -89,12 +106,30 @@ class VulkanFieldTracer : public FieldTracer {
   private:
     void makeRays() {
         const bool prune = settings_.prune && !input_.options.keeps("empty");
-        shaders_ = makeFieldShaders(scene_, settings_, input_.film.width, input_.film.height, prune);
-        rays_.emplace(*device_, shaders_, settings_, prune);
+        shaders_ = makeFieldShaders(scene_, settings_, input_.film.width, input_.film.height, prune,
+                                    cones_ ? &*cones_ : nullptr);
+        tiles_.emplace(*device_, shaders_, settings_.prepass, prune);
+        rays_.emplace(*device_, shaders_, settings_, *tiles_);
         // A sixteenth of --memory for the device's buffers, several times that for the host's rays and hits;
         // the picture and the samples have the rest.
         most_ = FieldRays::most(*device_, shaders_, (input_.options.memory_mib << 20) / 16);
+        // A device that is a program on the CPU gains nothing by more, and the host's lists stay in caches.
+        if (!device_->traits().real_gpu) most_ = std::min(most_, std::size_t{1} << 17);
         if (!scene_.glsl && !input_.options.keeps("empty") && scene_.bound_holds) around_ = sphereOf();
+    }
+
+    void makeCones() {
+        cone_rays_.emplace(*device_, shaders_, *cones_, *tiles_);
+        const std::size_t most =
+            ConeRays::most(*device_, shaders_, *cones_, (input_.options.memory_mib << 20) / 16);
+        cone_bands_.emplace(grid_, *batches_, *cone_rays_, most, sign_, scene_.glsl.has_value(),
+                            [this] { return input_.progress.cancelled(); });
+    }
+    FieldCones emptyCones(const FieldWindow& window) const {
+        FieldCones out;
+        out.rays.resize(window.samples());
+        out.evaluations.resize(out.samples()), out.begin.resize(out.samples() + 1);
+        return out;
     }
 
     /// What ends a ray is a hit within the threshold, and the levels of a bound may lie farther out.
@@ -103,7 +138,8 @@ class VulkanFieldTracer : public FieldTracer {
         if (!std::isfinite(solid.w)) return {};
         const double farthest = glm::distance(grid_.eye_world, glm::dvec3(solid)) + solid.w;
         const double pixel = grid_.halfPixel() * (grid_.perspective ? farthest : 1.0);
-        const double level = 2.0 * std::max(1.0, settings_.threshold) * pixel;
+        const double reach = std::max(1.0, cones_ ? coneReach(*cones_) : settings_.threshold);
+        const double level = 2.0 * reach * pixel;
         const sdf::Box box = levelBox(scene_.tree, scene_.tree.root, level * shaders_.lipschitz);
         return {sphereAround(box, 1e-5 * farthest), level};
     }
@@ -161,13 +197,13 @@ class VulkanFieldTracer : public FieldTracer {
 
     double deviceSeconds() const {
         double sum = 0.0;
-        if (rays_)
-            for (const PassTime& time : rays_->times()) sum += time.seconds;
+        if (tiles_)
+            for (const PassTime& time : tiles_->times()) sum += time.seconds;
         return sum;
     }
 
     void addCounts(std::map<std::string, std::uint64_t>& into) const {
-        const FieldCounts counts = rays_ ? rays_->counts() : FieldCounts{};
+        const FieldCounts counts = tiles_ ? tiles_->counts() : FieldCounts{};
         into["instructions_of_tape"] = tape_.size();
         into["rays"] += primary_.primary, into["evaluations"] += primary_.evaluations;
         into["field_evaluations"] += counts.evaluations + counts.cone_evaluations;
@@ -193,7 +229,7 @@ class VulkanFieldTracer : public FieldTracer {
         if (!rays_) return "the scene has no field";
         if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prepass) return "switched off";
-        const FieldCounts& counts = rays_->counts();
+        const FieldCounts& counts = tiles_->counts();
         return fmt::format("cones of {} tiles of 64 rays took {} evaluations; {} tiles are empty",
                            counts.tiles, counts.cone_evaluations, counts.empty_tiles);
     }
@@ -202,7 +238,7 @@ class VulkanFieldTracer : public FieldTracer {
         if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prune || input_.options.keeps("empty")) return "switched off";
         if (shaders_.prune.empty()) return "no fold of many like children: the shader is straight-line";
-        const FieldCounts& counts = rays_->counts();
+        const FieldCounts& counts = tiles_->counts();
         const double lists = static_cast<double>(std::max<std::uint64_t>(counts.lists, 1));
         return fmt::format("of {} like children {:.1f} count in a segment of a tile's depth, by {} lists",
                            shaders_.field.rows(),
@@ -221,6 +257,7 @@ class VulkanFieldTracer : public FieldTracer {
 
     const MethodInput input_;
     const sdf::TraceSettings settings_;
+    const std::optional<sdf::ConeSettings> cones_;
     const sdf::FieldScene& scene_;
     const sdf::Tape tape_;
     const sdf::RayGrid grid_;
@@ -228,10 +265,13 @@ class VulkanFieldTracer : public FieldTracer {
     const sdf::Shader shader_;
     std::optional<Device> device_;
     FieldShaders shaders_;
+    std::optional<FieldTiles> tiles_;
     std::optional<FieldRays> rays_;
     std::size_t most_ = std::size_t{1} << 20;
     FieldSphere around_;
     std::optional<FieldBatches> batches_;
+    std::optional<ConeRays> cone_rays_;
+    std::optional<ConeBands> cone_bands_;
     double sign_ = 0.0, setup_seconds_ = 0.0, seconds_ = 0.0;
     sdf::RayCounts primary_, secondary_;
 };

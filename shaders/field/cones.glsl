@@ -17,10 +17,10 @@ void main() {
         float value = cone.sign * ew_fieldAt(origin + direction * t);
         ++tile.evaluations;
         float radius = cone.radius + cone.spread * t;
-        float pixel = ew_threshold * (cone.pixel_radius + cone.pixel_slope * t);
+        float reach = cone.reach + cone.reach_slope * t;
         // 2^-16 of the position: what float is off.
         float slack = 1.52587890625e-05 * (length(origin) + t);
-        float step = (value - radius - pixel - slack) / (1.0 + cone.spread + ew_threshold * cone.pixel_slope);
+        float step = (value - radius - reach - slack) / (1.0 + cone.spread + cone.reach_slope);
         open = step > 0.25 * radius && step > slack;
         if (step > 0.0) t += step;
     }

@@ -19,15 +19,3 @@ bool ew_failed() { return ew_stuck_line != 0u || ew_flags[0] != 0u; }
 
 vec3 ew_origin(EwRay ray) { return vec3(ray.origin_x, ray.origin_y, ray.origin_z); }
 vec3 ew_direction(EwRay ray) { return vec3(ray.direction_x, ray.direction_y, ray.direction_z); }
-
-ew_TraceRules ew_rulesOf(EwRay ray) {
-    ew_TraceRules rules;
-    rules.relaxation = ew_relaxation;
-    rules.omega = ew_omega;
-    rules.t_max = ray.t_max;
-    rules.pixel_radius = ray.pixel_radius;
-    rules.pixel_slope = ray.pixel_slope;
-    rules.threshold = ew_threshold;
-    rules.lift = ew_level_set ? ew_threshold : 0.0;
-    return rules;
-}

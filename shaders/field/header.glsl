@@ -8,32 +8,22 @@ struct EwRay {
     float pixel_radius, pixel_slope;   // half a pixel's side along the ray
     float sign;                        // of the field that is traced; 0: of the value where the ray begins
 };
-struct EwState {
-    ew_TraceState at;
-    float sign;
-    uint evaluations, iterations, end;
-};
-struct EwHit {
-    float t, value, normal_x, normal_y, normal_z, color_r, color_g, color_b;  // value: over L, times the sign
-};
 struct EwCone {
     float origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
     float radius, spread;              // rays of the tile are within radius + spread t of the axis at t
-    float t_min, t_max, pixel_radius, pixel_slope;  // the least, the largest, the largest of the rays
+    float t_min, t_max;                // the least, the largest of the rays
+    float reach, reach_slope;          // what is nearer to a ray than reach + reach_slope t counts
     float sign;                                     // of all rays; 0: they differ
 };
 struct EwTile { float begin, list_begin, list_end; uint evaluations; };
 
-const uint ew_running = 0u, ew_surface = 1u, ew_candidate = 2u, ew_far = 3u, ew_out_of_steps = 4u, ew_empty = 5u;
-
 layout(std430, binding = 0) readonly buffer EwRays { EwRay ew_rays[]; };
-layout(std430, binding = 1) buffer EwStates { EwState ew_states[]; };
-layout(std430, binding = 2) buffer EwHits { EwHit ew_hits[]; };
 layout(std430, binding = 3) readonly buffer EwCones { EwCone ew_cones[]; };
 layout(std430, binding = 4) buffer EwTiles { EwTile ew_tiles[]; };
 layout(std430, binding = 5) readonly buffer EwTable { uint ew_table[]; };
 layout(std430, binding = 6) buffer EwItems { uint ew_items[]; };
-/// 0: a value that is no number: 1; its position in 1 to 3; 4: a user's loop without end: its line; 5: active rays.
+/// 0: a value that is no number: 1; its position in 1 to 3; 4: a user's loop without end: its line; 5: active rays; 6: rays
+/// without room for more.
 layout(std430, binding = 7) buffer EwFlags { uint ew_flags[]; };
 layout(push_constant) uniform EwPush {
     uint ew_count;        // rays, tiles or tiles times segments

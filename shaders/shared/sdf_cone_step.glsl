@@ -2,6 +2,10 @@
 // coneAt(state) and tells coneTake() what it said, until coneEnded(state). Where coneClosed(state), a hit group is complete:
 // it is weighed and shaded, at once or later, and coneOpen() goes on.
 //
+// Steps may be longer than Algorithm 1's: through empty space as auto relaxation takes them (Ban and Valasek 2023), on
+// what a ball of free space holds of the cone; and within a surface, which the ray has met, towards where it fills the cone.
+// What such a step might have passed is asked again by Algorithm 1's.
+//
 // C++ compiles this text as double, GLSL as float. Distances are f / L.
 
 const int kConeGoes = 0;
@@ -16,15 +20,20 @@ struct ConeRules {
     real hard;       ///< a hit is hard where the distance is below this part of the cone's radius
     bool relaxed;    ///< CTSS-R: ends at the first hard hit
     bool backtrace;  ///< section 3.6
+    bool overstep;   ///< longer steps than Algorithm 1's
 };
 
 struct ConeState {
     real t;        ///< the field is asked there next
     real safe_t;   ///< nothing of the surface lies between the last point asked and this
-    real last_t;   ///< the last point asked
+    real last_t;   ///< the last point asked, but for those whose step is taken back
+    real value;    ///< f / L there
+    real slope;    ///< in a group: of the distance; else, smoothed, of how far the cone is free
+    real wall;     ///< no longer step goes beyond: the cone meets something there
     real entry_t;  ///< of the open group: where the cone meets it
     real hard_t;   ///< where the ray does
     real least;    ///< of the open group: the least distance, in radii of the cone
+    bool longer;   ///< the step to t is
     bool open;
     bool hard;
     bool closed;   ///< a group is complete: entry_t, hard_t, least and hard are its
@@ -39,6 +48,10 @@ EDGEWISE_FN ConeState coneFrom(ConeRules rules, real t_min) {
     s.t = t_min;
     s.safe_t = t_min;
     s.last_t = t_min;
+    s.value = real(0.0);
+    s.slope = real(-1.0);
+    s.wall = rules.t_max;
+    s.longer = false;
     s.entry_t = t_min;
     s.hard_t = t_min;
     s.least = real(1.0);
@@ -66,10 +79,74 @@ EDGEWISE_FN real coneSampleAt(ConeState s) {
     return s.hard ? s.hard_t : s.entry_t;
 }
 
+/// Algorithm 1's step.
+EDGEWISE_FN real coneLeastStep(ConeRules rules, real t, real value) {
+    return max(value, rules.alpha * coneRadiusAt(rules, t));
+}
+
+/// How far up the ray a ball of radius `value` at t holds the cone; 0: it does not hold it at t. Its rim is in the ball up
+/// to where x^2 + (R + slope x)^2 = value^2. Down the ray it is a little farther: the cone is narrower there.
+EDGEWISE_FN real coneFree(ConeRules rules, real t, real value) {
+    real radius = coneRadiusAt(rules, t);
+    real m = real(1.0) + rules.slope * rules.slope;
+    real rest = m * value * value - radius * radius;
+    return value > radius ? max((sqrt(rest) - radius * rules.slope) / m, real(0.0)) : real(0.0);
+}
+
+/// Whether a long step has passed nothing: outside of groups, two balls that meet beyond the cone's rim have it all between
+/// them. Within one, the distance fell by half of what it should, and could not rise to the cone's radius in between.
+EDGEWISE_FN bool conePassedNothing(ConeRules rules, ConeState s, real value) {
+    real step = s.t - s.last_t;
+    real radius = coneRadiusAt(rules, s.last_t);
+    bool fell = value <= s.value + real(0.5) * s.slope * step;
+    if (s.open) return fell && s.value + value + step < real(2.0) * radius;
+    if (!(value > coneRadiusAt(rules, s.t))) return false;
+    return coneFree(rules, s.last_t, s.value) + coneFree(rules, s.t, value) >= step;
+}
+
+/// Where the field is met below the cone's radius, it is so around there as well.
+EDGEWISE_FN ConeState coneTakeBack(ConeRules rules, ConeState s, real value) {
+    real radius = coneRadiusAt(rules, s.t);
+    if (!s.open && value < radius) s.wall = min(s.wall, s.t + value - radius);
+    s.slope = s.open ? real(0.0) : real(-1.0);
+    s.closed = false;
+    s.longer = false;
+    s.t = s.last_t + coneLeastStep(rules, s.last_t, s.value);
+    return s;
+}
+
+/// From the point just asked. Two balls that touch the same plane and each
+/// other: r and r + m d, d apart; d = 2 r / (1 - m). Within a surface: a little beyond where a plane would fill the cone, but
+/// so that the distance could not rise to the radius in between.
+EDGEWISE_FN real coneStep(ConeRules rules, ConeState s, real t, real value) {
+    real least = coneLeastStep(rules, t, value), radius = coneRadiusAt(rules, t);
+    if (!rules.overstep) return least;
+    if (!s.open) {
+        real step = real(2.0) * coneFree(rules, t, value) / max(real(1.0) - s.slope, real(1e-6));
+        return max(min(step, s.wall - t), least);
+    }
+    if (!s.hard || !(s.slope < real(0.0))) return least;
+    real filled = real(1.0625) * (value + radius) / -s.slope;
+    real kept = real(1.9375) * (radius - value) / max(real(1.0) + s.slope, real(1e-6));
+    return max(min(filled, kept), least);
+}
+
+/// On the way to the point just asked, for steps from there.
+EDGEWISE_FN real coneSlope(ConeRules rules, ConeState s, real value, bool soft) {
+    real way = s.t - s.last_t;
+    if (!(way > real(0.0)) || (s.open && !soft)) return real(-1.0);
+    if (soft) return (value - s.value) / way;
+    real slope = (coneFree(rules, s.t, value) - coneFree(rules, s.last_t, s.value)) / way;
+    return s.slope + real(0.5) * (max(slope, real(-1.0)) - s.slope);
+}
+
+/// `value`: f / L at coneAt(s), times the ray's sign.
 EDGEWISE_FN ConeState coneTake(ConeRules rules, ConeState s, real value) {
+    if (s.longer && !conePassedNothing(rules, s, value)) return coneTakeBack(rules, s, value);
     real radius = coneRadiusAt(rules, s.t);
     real share = value / radius;
     bool soft = share < real(1.0);
+    s.slope = coneSlope(rules, s, value, soft);
     if (soft && !s.open) {
         s.entry_t = coneEntry(rules, s);
         s.least = real(1.0);
@@ -85,17 +162,33 @@ EDGEWISE_FN ConeState coneTake(ConeRules rules, ConeState s, real value) {
     }
     s.open = soft;
     bool full = share <= real(-1.0) || (rules.relaxed && s.hard && soft);
-    real next = s.t + max(value, rules.alpha * radius);
+    real least = coneLeastStep(rules, s.t, value);
+    real step = coneStep(rules, s, s.t, value);
     if (full) {
         s.end = kConeFull;
-    } else if (next >= rules.t_max) {
+    } else if (s.t + least >= rules.t_max) {
         s.end = kConeFar;
     }
     if (s.end != kConeGoes) s.closed = s.closed || s.open;
     s.safe_t = s.t + max(value, real(0.0));
     s.last_t = s.t;
-    s.t = next;
+    s.value = value;
+    s.t = s.t + step;
+    s.longer = step > least;
     return s;
+}
+
+/// Out of steps: what is open is as complete as it gets.
+EDGEWISE_FN ConeState coneStopped(ConeState s) {
+    if (s.end != kConeGoes) return s;
+    s.end = kConeFar;
+    s.closed = s.closed || s.open;
+    return s;
+}
+
+/// The closed group's least distance in radii. What fills the cone fills the mask, whose points may lie outside of the cone.
+EDGEWISE_FN real coneLeast(ConeState s) {
+    return s.end == kConeFull && s.least <= real(-1.0) ? real(-2.0) : s.least;
 }
 
 /// The part of the cone's base that a group covers: of a plane whose normal's share across the ray is (nx, ny), as bits of

@@ -258,7 +258,8 @@ TEST_F(FieldSecondaryRays, MeetWhatTheCpuSaysOfThem) {
         const sdf::Tape tape = sdf::lower(scene.tree);
         const sdf::SceneTracer cpu(scene, tape, settings);
         const FieldShaders shaders = makeFieldShaders(scene, settings, kWidth, kHeight, true);
-        FieldRays rays(test::device(), shaders, settings, !shaders.prune.empty());
+        FieldTiles tiles(test::device(), shaders, settings.prepass, true);
+        FieldRays rays(test::device(), shaders, settings, tiles);
         FieldBatches device(scene, tape, shaders, settings, &rays, {}, 1 << 20, {});
         BothTracers both(device, cpu);
         const sdf::Shader shader(fieldShading(picture.input(), settings, false), cpu);

@@ -85,7 +85,7 @@ TEST_F(FieldLimits, AFoldOfMoreChildrenThanTheDeviceCanLoopOverIsRefused) {
     const auto made = [](std::uint32_t children) {
         const sdf::TraceSettings settings;
         const FieldShaders shaders = makeFieldShaders(spheres(children), settings, 8, 8, true);
-        FieldRays(test::device(), shaders, settings, true);
+        FieldTiles(test::device(), shaders, settings.prepass, true);
     };
     EXPECT_NO_THROW(made(most));
     try {

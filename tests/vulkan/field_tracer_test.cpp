@@ -232,7 +232,8 @@ TEST_F(FieldOnDevice, ManyDispatchesMakeTheSamePicture) {
     std::vector<float> first;
     std::uint64_t dispatches = 0;
     for (const std::uint32_t turns : {0u, 500u, 200u}) {
-        FieldRays tracer(test::device(), shaders, settings, turns == 500, turns);
+        FieldTiles tiles(test::device(), shaders, settings.prepass, turns == 500, turns);
+        FieldRays tracer(test::device(), shaders, settings, tiles);
         const FieldAnswers answers = tracer.trace(rays, {0, 0, 0, 3});
         std::vector<float> t;
         for (std::size_t i = 0; i < rays.size(); ++i)
