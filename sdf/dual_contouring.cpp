@@ -1,0 +1,4 @@
+#include "sdf/polygonize.h"
+namespace edgewise::sdf {
+SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) { return marchingCubes(request, counts); }
+}
