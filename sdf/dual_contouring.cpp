@@ -194,8 +194,9 @@ class DualContouring {
         return true;
     }
 
-    /// Whether the edge passes one of the two triangles: their second condition, for the diagonal from
-    /// vertex `d`.
+    /// Whether both triangles stay within the polygon's envelope, the tetrahedra of its edge and its sides: for
+    /// the diagonal from vertex `d`. The edge passes one of them, and the diagonal the triangle of the edge
+    /// and the fourth vertex.
     bool aroundEdge(const DualPolygon& polygon, int d) const {
         const int u = (polygon.axis + 1) % 3, v = (polygon.axis + 2) % 3;
         const glm::dvec3 edge = lattice_.corner(polygon.corner);
@@ -209,7 +210,16 @@ class DualContouring {
                 (a * x[i][polygon.axis] + b * x[j][polygon.axis] + c * x[k][polygon.axis]) / sum;
             return height >= 0.0 && height <= lattice_.step;
         };
-        return passed(0, 1, 2) || passed(0, 2, 3);
+        // Where the line from vertex 0 to 2 passes the edge's half-plane towards vertex j.
+        const auto withinSide = [&](int j) {
+            const double a = turn(0, j), b = turn(2, j), part = a / (a - b);
+            if (!(a * b < 0.0)) return false;
+            const glm::dvec3 at = x[0] + part * (x[2] - x[0]);
+            const double along = (at[u] * x[j][u] + at[v] * x[j][v]) / (x[j][u] * x[j][u] + x[j][v] * x[j][v]);
+            const double height = at[polygon.axis] - along * x[j][polygon.axis];
+            return along >= 0.0 && along <= 1.0 && height >= 0.0 && height <= (1.0 - along) * lattice_.step;
+        };
+        return (passed(0, 1, 2) && withinSide(3)) || (passed(0, 2, 3) && withinSide(1));
     }
 
     double offAlong(const DualPolygon& polygon, int d) const {
