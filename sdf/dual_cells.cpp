@@ -77,7 +77,7 @@ class Builder {
             polygon.axis = static_cast<std::uint8_t>(axis);
             polygon.outward = crossings_.value(place) < 0.0;
             polygon.brick = b;
-            polygon.crossing_world = crossing->place_world;
+            polygon.crossing = {crossing->place_world, crossing->normal_world};
             complex_.polygons.push_back(polygon);
         }
     }
@@ -107,7 +107,7 @@ class Builder {
         vertex.middle_world /= static_cast<double>(count);
         const Brick& brick = complex_.bricks.bricks[b];
         const FeaturePoint point =
-            featurePoint(brick.tape, std::span(planes.data(), count), lattice_.step);
+            featurePoint(brick.tape, std::span(planes.data(), count), vertex.middle_world, lattice_.step);
         vertex.target_world = point.place_world, vertex.rank = static_cast<std::uint8_t>(point.rank);
         vertex.cell = brick.first + place, vertex.brick = b;
         vertex.loops = static_cast<std::uint8_t>(loops.count);

@@ -8,6 +8,7 @@
 #include "sdf/mesh_cell.h"
 #include "sdf/mesh_crossings.h"
 #include "sdf/mesh_lattice.h"
+#include "sdf/mesh_qef.h"
 #include "sdf/polygonize.h"
 
 namespace edgewise::sdf {
@@ -39,7 +40,7 @@ struct DualPolygon {
     std::uint32_t brick = 0;
     std::array<std::uint32_t, 4> vertex{};
     std::array<std::uint32_t, 4> across{};  ///< the polygon that shares side k, from vertex k to the next one
-    glm::dvec3 crossing_world{0.0};
+    TangentPlane crossing{};  ///< of the surface with the edge
 };
 
 struct DualComplex {

@@ -9,6 +9,7 @@
 #include "sdf/mesh_attributes.h"
 #include "sdf/mesh_embedding.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/mesh_simplify.h"
 #include "sdf/polygonize.h"
 
 namespace edgewise::sdf {
@@ -19,6 +20,9 @@ constexpr double kInside = 0.02;
 /// Of a cell's side: vertices of different cells nearer than that would be the same.
 constexpr double kApart = 0.05;
 constexpr int kMostMendings = 12;
+constexpr int kSettlings = 3;
+/// Of a cell's side: what is off the surface by no more is left as it is.
+constexpr double kSettled = 0.01;
 
 /// A vertex is at its target, or, to keep the mesh from meeting itself, moved towards its loop's middle.
 enum Care : std::uint8_t { kFree, kInCell, kHalfway, kMiddle, kDivided };
@@ -33,6 +37,7 @@ class DualContouring {
 
     SurfaceMesh run() {
         placeVertices();
+        settle();
         divided_.assign(complex_.polygons.size(), false);
         turned_.assign(complex_.polygons.size(), false);
         middles_.assign(complex_.polygons.size(), {kNoVertex, kNoVertex, kNoVertex, kNoVertex});
@@ -42,7 +47,10 @@ class DualContouring {
             triangulate();
             if (round == kMostMendings || !mend()) break;
         }
-        if (request_.attributes) findAttributes(TapeAt(request_.tape, lattice_, complex_.bricks), mesh_);
+        const TapeAt tape(request_.tape, lattice_, complex_.bricks);
+        findMaterials(tape, mesh_);
+        counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
+        if (request_.attributes) findNormals(tape, mesh_);
         return std::move(mesh_);
     }
 
@@ -98,6 +106,91 @@ class DualContouring {
         return inOwnCell(v, moved) ? moved : heldInCell(v, moved);
     }
 
+    void findPolygons() {
+        first_.assign(complex_.vertices.size() + 1, 0);
+        for (const DualPolygon& polygon : complex_.polygons)
+            for (const std::uint32_t v : polygon.vertex) ++first_[v + 1];
+        for (std::size_t v = 0; v < complex_.vertices.size(); ++v) first_[v + 1] += first_[v];
+        around_.resize(first_.back());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p)
+            for (const std::uint32_t v : complex_.polygons[p].vertex) around_[next[v]++] = p;
+    }
+    std::span<const std::uint32_t> polygonsOf(std::uint32_t v) const {
+        return std::span(around_).subspan(first_[v], first_[v + 1] - first_[v]);
+    }
+
+    /// How far the polygons around a vertex would be off the surface with it there, at the middles of their
+    /// sides and of the better diagonal.
+    double offWith(std::uint32_t v, const glm::dvec3& place) const {
+        const TapeView& tape = tapeOf(complex_.vertices[v].brick);
+        const auto off = [&](const glm::dvec3& a, const glm::dvec3& b) {
+            return std::abs(valueAt(tape, 0.5 * (a + b)));
+        };
+        double most = std::abs(valueAt(tape, place));
+        for (const std::uint32_t p : polygonsOf(v)) {
+            const DualPolygon& polygon = complex_.polygons[p];
+            const auto at = [&](std::size_t k) { return mesh_.position_world[polygon.vertex[k % 4]]; };
+            const std::size_t k = std::find(polygon.vertex.begin(), polygon.vertex.end(), v) - polygon.vertex.begin();
+            most = std::max({most, off(place, at(k + 1)),
+                             std::min(off(place, at(k + 2)), off(at(k + 1), at(k + 3)))});
+        }
+        return most;
+    }
+
+    /// A sharp edge may pass cells that see one of its sides alone: their vertices take the other from the
+    /// cells around.
+    void settle() {
+        findPolygons();
+        for (int pass = 0; pass < kSettlings; ++pass) {
+            std::size_t moved = 0;
+            for (std::uint32_t v = 0; v < complex_.vertices.size(); ++v) moved += bySharp(v) && settle(v);
+            if (moved == 0) break;
+        }
+    }
+    bool bySharp(std::uint32_t v) const {
+        if (complex_.vertices[v].rank > 1) return true;
+        for (const std::uint32_t p : polygonsOf(v))
+            for (const std::uint32_t w : complex_.polygons[p].vertex)
+                if (complex_.vertices[w].rank > 1) return true;
+        return false;
+    }
+    bool settle(std::uint32_t v) {
+        DualVertex& vertex = complex_.vertices[v];
+        const glm::dvec3 now = mesh_.position_world[v];
+        double best = offWith(v, now);
+        if (best <= kSettled * lattice_.step) return false;
+        std::vector<std::uint32_t> seen;
+        std::vector<TangentPlane> planes;
+        glm::dvec3 sharp(0.0);
+        int sharp_count = 0;
+        for (const std::uint32_t p : polygonsOf(v))
+            for (const std::uint32_t w : complex_.polygons[p].vertex) {
+                if (w != v && complex_.vertices[w].rank > 1) sharp += mesh_.position_world[w], ++sharp_count;
+                for (const std::uint32_t q : polygonsOf(w)) seen.push_back(q);
+            }
+        std::sort(seen.begin(), seen.end());
+        seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+        for (const std::uint32_t q : seen)
+            if (planes.size() < kMostPlanes) planes.push_back(complex_.polygons[q].crossing);
+        bool moved = false;
+        const auto attempt = [&](const glm::dvec3& about) {
+            const FeaturePoint point = featurePoint(tapeOf(vertex.brick), planes, about, lattice_.step);
+            const glm::dvec3 from_cell =
+                glm::abs(point.place_world - (lattice_.corner(vertex.cell) + 0.5 * lattice_.step));
+            if (std::max({from_cell.x, from_cell.y, from_cell.z}) > 1.4 * lattice_.step) return;
+            const double off = offWith(v, point.place_world);
+            if (off >= 0.7 * best) return;
+            best = off, moved = true;
+            mesh_.position_world[v] = vertex.target_world = point.place_world;
+            vertex.rank = static_cast<std::uint8_t>(point.rank);
+        };
+        attempt(now);
+        if (sharp_count > 0) attempt(sharp / static_cast<double>(sharp_count));
+        attempt(vertex.middle_world);
+        return moved;
+    }
+
     /// Where the surface passes a face twice between the same two vertices, the two sides get vertices of
     /// their own between them: else four triangles would have one edge.
     void partTwins(std::uint32_t p) {
@@ -129,7 +222,7 @@ class DualContouring {
         const std::uint32_t q = polygon.across[k];
         const DualPolygon& other = complex_.polygons[q];
         const auto middle = static_cast<std::uint32_t>(mesh_.position_world.size());
-        mesh_.position_world.push_back(0.5 * (polygon.crossing_world + other.crossing_world));
+        mesh_.position_world.push_back(0.5 * (polygon.crossing.point + other.crossing.point));
         middles_[p][k] = middle;
         for (int j = 0; j < 4; ++j)
             if (other.across[j] == p && sameSide(polygon, k, other, j)) middles_[q][j] = middle;
@@ -159,7 +252,7 @@ class DualContouring {
     void addFan(std::uint32_t p) {
         const DualPolygon& polygon = complex_.polygons[p];
         const auto hub = hub_.try_emplace(p, static_cast<std::uint32_t>(mesh_.position_world.size()));
-        if (hub.second) mesh_.position_world.push_back(polygon.crossing_world);
+        if (hub.second) mesh_.position_world.push_back(polygon.crossing.point);
         const std::uint32_t centre = hub.first->second;
         const bool plain = plainCells(polygon);
         for (int k = 0; k < 4; ++k) {
@@ -300,6 +393,7 @@ class DualContouring {
     MeshCounts& counts_;
     DualComplex complex_;
     SurfaceMesh mesh_;
+    std::vector<std::uint32_t> first_, around_;  ///< the polygons of each vertex
     std::vector<std::uint8_t> care_, diagonal_;
     std::vector<bool> divided_, turned_, doubtful_;
     std::vector<std::array<std::uint32_t, 4>> middles_;

@@ -85,7 +85,9 @@ class MarchingCubes {
         vertex_.assign(bricks.bricks.size() * kOwned, kNoBrick);
         for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCrossings(b);
         for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCells(b);
-        if (request_.attributes) findAttributes(TapeAt(request_.tape, lattice_, bricks), mesh_);
+        const TapeAt tape(request_.tape, lattice_, bricks);
+        findMaterials(tape, mesh_);
+        if (request_.attributes) findNormals(tape, mesh_);
         return std::move(mesh_);
     }
 

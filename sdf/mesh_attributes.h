@@ -18,8 +18,10 @@ class TapeAt {
     const BrickList& bricks_;
 };
 
-/// The material at each triangle's centre; normals from gradients a little inside the triangle, so that each
-/// side of a crease has its own.
-void findAttributes(const TapeAt& tape, SurfaceMesh& mesh);
+/// At each triangle's centre.
+void findMaterials(const TapeAt& tape, SurfaceMesh& mesh);
+
+/// From gradients a little inside the triangles, so that each side of a crease has its own.
+void findNormals(const TapeAt& tape, SurfaceMesh& mesh);
 
 }  // namespace edgewise::sdf

@@ -65,6 +65,13 @@ bool boxesMeet(Points x, const Triangle& a, const Triangle& b) {
     return true;
 }
 
+/// From an end of the side that is a corner of `b` too, `v` lies the other way than the other end.
+bool lineGoesOn(Points x, std::uint32_t p, std::uint32_t q, const Triangle& b, std::uint32_t v) {
+    const auto isCorner = [&](std::uint32_t w) { return b[0] == w || b[1] == w || b[2] == w; };
+    return (isCorner(p) && glm::dot(x[v] - x[p], x[q] - x[p]) < 0.0) ||
+           (isCorner(q) && glm::dot(x[v] - x[q], x[p] - x[q]) < 0.0);
+}
+
 /// Some side of `a` has all of `b` beyond it: in the plane, common vertices being on it.
 bool sideParts(const Flat& flat, Points x, const Triangle& a, const Triangle& b) {
     const int turn = flat.sideOf(x[a[0]], x[a[1]], x[a[2]]);
@@ -75,8 +82,9 @@ bool sideParts(const Flat& flat, Points x, const Triangle& a, const Triangle& b)
             const std::uint32_t v = b[j];
             const bool common = v == a[i] || v == a[(i + 1) % 3];
             const int side = common ? 0 : turn * flat.sideOf(x[a[i]], x[a[(i + 1) % 3]], x[v]);
-            // Rounding leaves it open where a vertex lies on the line: no parting, unless it is common.
-            beyond &= common || side < 0;
+            // Rounding leaves it open where a vertex lies on the line: no parting, unless it is common, or is
+            // seen from a common one the other way than the side.
+            beyond &= common || side < 0 || (side == 0 && lineGoesOn(x, a[i], a[(i + 1) % 3], b, v));
             strictly |= side < 0;
         }
         if (beyond && strictly) return true;
@@ -84,7 +92,7 @@ bool sideParts(const Flat& flat, Points x, const Triangle& a, const Triangle& b)
     return false;
 }
 
-/// Triangles in one plane, as nearly as can be told.
+/// Whether triangles meet as seen along an axis, about square to the first.
 bool flatMeet(Points x, const Triangle& a, const Triangle& b) {
     const Flat flat = flatOf(x[a[0]], x[a[1]], x[a[2]]);
     return !sideParts(flat, x, a, b) && !sideParts(flat, x, b, a);
@@ -106,7 +114,7 @@ bool onePlane(Points x, const Triangle& a, const Triangle& b) {
 
 /// Two triangles with one common vertex, the corners turned so that it is first.
 bool meetBesideCorner(Points x, const Triangle& a, const Triangle& b) {
-    if (onePlane(x, a, b) || onePlane(x, b, a)) return flatMeet(x, a, b);
+    if (onePlane(x, a, b) || onePlane(x, b, a)) return true;
     return pierces(x[a[1]], x[a[2]], x[b[0]], x[b[1]], x[b[2]]) ||
            pierces(x[b[1]], x[b[2]], x[a[0]], x[a[1]], x[a[2]]);
 }
@@ -114,18 +122,19 @@ bool meetBesideCorner(Points x, const Triangle& a, const Triangle& b) {
 }  // namespace
 
 bool trianglesMeet(Points x, const Triangle& a, const Triangle& b) {
-    if (!boxesMeet(x, a, b)) return false;
+    // Parted as seen along an axis: parted. Nearly flat parts, whose heights are noise, are told apart so.
+    if (!boxesMeet(x, a, b) || !flatMeet(x, a, b) || !flatMeet(x, b, a)) return false;
     int in_a[3], in_b[3];
     const int common = commonOf(a, b, in_a, in_b);
     if (common == 3) return true;
-    if (common == 2) return onePlane(x, a, b) && flatMeet(x, a, b);
+    if (common == 2) return onePlane(x, a, b);
     if (common == 1) {
         const auto turned = [](const Triangle& t, int n) {
             return Triangle{t[n], t[(n + 1) % 3], t[(n + 2) % 3]};
         };
         return meetBesideCorner(x, turned(a, in_a[0]), turned(b, in_b[0]));
     }
-    if (onePlane(x, a, b) || onePlane(x, b, a)) return flatMeet(x, a, b);
+    if (onePlane(x, a, b) || onePlane(x, b, a)) return true;
     for (int i = 0; i < 3; ++i)
         if (pierces(x[a[i]], x[a[(i + 1) % 3]], x[b[0]], x[b[1]], x[b[2]]) ||
             pierces(x[b[i]], x[b[(i + 1) % 3]], x[a[0]], x[a[1]], x[a[2]]))

@@ -1,11 +1,11 @@
 #include "sdf/mesh_feature.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "sdf/evaluate.h"
-#include "sdf/mesh_cell.h"
 
 namespace edgewise::sdf {
 namespace {
@@ -44,16 +44,15 @@ glm::dvec3 onSurface(const TapeView& tape, const glm::dvec3& from) {
     return p;
 }
 
-FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> given, double step) {
-    std::array<TangentPlane, kCellEdges> planes;
-    glm::dvec3 middle(0.0);
-    for (std::size_t i = 0; i < given.size(); ++i) planes[i] = given[i], middle += given[i].point;
-    middle /= static_cast<double>(given.size());
-    const auto smooth = [&] { return FeaturePoint{onSurface(tape, middle), 1}; };
+FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> given, const glm::dvec3& about,
+                          double step) {
+    std::array<TangentPlane, kMostPlanes> planes;
+    std::copy(given.begin(), given.end(), planes.begin());
+    const auto smooth = [&] { return FeaturePoint{onSurface(tape, about), 1}; };
     const std::span<const TangentPlane> own(planes.data(), given.size());
-    PlanesPoint found = nearestToPlanes(own, middle, kCutoff);
+    PlanesPoint found = nearestToPlanes(own, about, kCutoff);
     for (int n = 0;; ++n) {
-        if (found.rank < 2 || glm::distance(found.place, middle) > 2.0 * step) return smooth();
+        if (found.rank < 2 || glm::distance(found.place, about) > 2.0 * step) return smooth();
         const double off = std::abs(valueAt(tape, found.place));
         if (found.residual <= kMeet * step && off <= kMeet * step) break;
         if (n == kRefinements) {

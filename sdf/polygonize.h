@@ -11,7 +11,7 @@ struct MeshRequest {
     Lattice lattice;
     /// Values change no faster than the tape says (check_lipschitz); false: intervals find the surface.
     bool bound_holds = true;
-    bool attributes = true;  ///< materials and normals
+    bool attributes = true;  ///< normals too
 };
 
 struct MeshCounts {
