@@ -9,6 +9,7 @@
 #include "sdf/mesh_attributes.h"
 #include "sdf/mesh_embedding.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/mesh_refine.h"
 #include "sdf/mesh_simplify.h"
 #include "sdf/polygonize.h"
 
@@ -20,6 +21,8 @@ constexpr double kInside = 0.02;
 /// Of a cell's side: vertices of different cells nearer than that would be the same.
 constexpr double kApart = 0.05;
 constexpr int kMostMendings = 12;
+/// Of a cell's side: edges whose middles are further off the surface are divided.
+constexpr double kSharpOff = 0.015, kSmoothOff = 0.06;
 constexpr int kSettlings = 3;
 /// Of a cell's side: what is off the surface by no more is left as it is.
 constexpr double kSettled = 0.01;
@@ -50,6 +53,9 @@ class DualContouring {
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
+        counts_.added = refineMesh(mesh_, tape, lattice_.step,
+                                   {kSharpOff * lattice_.step, kSmoothOff * lattice_.step});
+        findMaterials(tape, mesh_);
         if (request_.attributes) findNormals(tape, mesh_);
         return std::move(mesh_);
     }

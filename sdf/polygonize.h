@@ -19,6 +19,7 @@ struct MeshCounts {
     std::uint64_t bricks = 0, cells = 0;  ///< that the surface passes
     std::uint64_t mended = 0;             ///< vertices moved, polygons divided: against intersections
     std::uint64_t collapsed = 0;          ///< vertices of flat parts left out
+    std::uint64_t added = 0;              ///< vertices where edges were off the surface
 };
 
 /// Marching cubes (Lorensen and Cline 1987), loops instead of a table: faces with two ways to go are decided

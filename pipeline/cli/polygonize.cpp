@@ -68,6 +68,7 @@ nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check)
     record["cells"] = made.counts.cells;
     record["mended"] = made.counts.mended;
     record["collapsed"] = made.counts.collapsed;
+    record["added"] = made.counts.added;
     return record;
 }
 
