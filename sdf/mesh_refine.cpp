@@ -15,6 +15,8 @@ namespace {
 constexpr int kRounds = 8, kRetreats = 3;
 /// A new vertex is worth it when what is off becomes less than this part.
 constexpr double kGain = 0.8;
+/// Of an edge's length: from its middle to where it is divided.
+constexpr double kFarthest = 1.0;
 
 struct Candidate {
     std::uint32_t a, b;
@@ -29,7 +31,8 @@ struct Added {
 class Refiner {
   public:
     Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits)
-        : mesh_(mesh), tape_(tape), step_(step), limits_(limits), around_(mesh.position_world.size()) {
+        : mesh_(mesh), tape_(tape), step_(step), limits_(limits), around_(mesh.position_world.size()),
+          stuck_(mesh.position_world.size(), false) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             for (const std::uint32_t v : mesh.triangles[t]) around_[v].push_back(t);
     }
@@ -67,6 +70,7 @@ class Refiner {
         for (const std::uint32_t t : triangles)
             for (int i = 0; i < 3; ++i) {
                 std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
+                if (stuck_[a] || stuck_[b]) continue;
                 if (a > b) std::swap(a, b);
                 const double off = offBetween(at(a), at(b));
                 if (off > std::min(limits_.sharp, limits_.smooth)) found.push_back({a, b, off});
@@ -100,7 +104,7 @@ class Refiner {
         if (!placeFor(c, tips, place)) return;
         const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
         mesh_.position_world.push_back(place);
-        around_.emplace_back();
+        around_.emplace_back(), stuck_.push_back(false);
         added_.push_back({v, 0.5 * (at(c.a) + at(c.b))});
         for (int i = 0; i < 2; ++i) splitTriangle(sides[i], c.a, c.b, tips[i], v);
     }
@@ -120,27 +124,34 @@ class Refiner {
 
     bool placeFor(const Candidate& c, const std::array<std::uint32_t, 2>& tips, glm::dvec3& place) const {
         const glm::dvec3 &a = at(c.a), &b = at(c.b), middle = 0.5 * (a + b);
-        const double most = 0.75 * glm::distance(a, b);
         const TapeView tape = tape_(middle);
-        std::vector<TangentPlane> planes;
-        for (const glm::dvec3& end : {a, b, at(tips[0]), at(tips[1])})
-            for (const double part : {0.25, 0.6}) {
-                const glm::dvec3 p = onSurface(tape, middle + part * (end - middle));
-                const glm::dvec3 gradient = gradientAt(tape, p).gradient;
-                const double length = glm::length(gradient);
-                if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
-            }
-        if (planes.empty()) return false;
-        const FeaturePoint point = featurePoint(tape, planes, middle, step_);
-        if (point.rank < 2 && c.off <= limits_.smooth) return false;
         double best = kGain * c.off;
         bool found = false;
-        for (const glm::dvec3& p : {point.place_world, onSurface(tape, middle)}) {
-            if (glm::distance(p, middle) > most) continue;
+        const auto attempt = [&](const glm::dvec3& p) {
+            if (glm::distance(p, middle) > kFarthest * glm::distance(a, b)) return;
             const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
             if (off < best) best = off, place = p, found = true;
+        };
+        const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
+        bool sharp = false;
+        // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
+        for (const auto& [count, parts] : {std::pair{4, std::array{0.25, 0.6}}, std::pair{2, std::array{0.8, 0.97}}}) {
+            std::vector<TangentPlane> planes;
+            for (int end = 0; end < count; ++end)
+                for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
+            if (planes.empty()) continue;
+            const FeaturePoint point = featurePoint(tape, planes, middle, step_);
+            if (point.rank < 2) continue;
+            sharp = true;
+            attempt(point.place_world);
         }
+        if (!sharp && c.off > limits_.smooth) attempt(onSurface(tape, middle));
         return found;
+    }
+    static void addPlane(const TapeView& tape, const glm::dvec3& near, std::vector<TangentPlane>& planes) {
+        const glm::dvec3 p = onSurface(tape, near), gradient = gradientAt(tape, p).gradient;
+        const double length = glm::length(gradient);
+        if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
     }
 
     /// New vertices whose triangles meet others go back to where they change nothing.
@@ -159,6 +170,7 @@ class Refiner {
             for (const std::uint32_t i : back) {
                 Added& added = added_[i];
                 glm::dvec3& place = mesh_.position_world[added.vertex];
+                stuck_[added.vertex] = true;
                 place = ++added.retreats == 1 ? 0.5 * (place + added.middle) : added.middle;
             }
         }
@@ -169,7 +181,7 @@ class Refiner {
     const double step_;
     const RefineLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<bool> touched_;
+    std::vector<bool> stuck_, touched_;  ///< triangles of this round; vertices that could not go where they belong
     std::vector<Added> added_;
 };
 
