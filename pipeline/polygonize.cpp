@@ -46,15 +46,15 @@ double cpuSeconds() {
 /// A surface passes at least about one brick a square of a brick's face: what is refused could not fit.
 void requireMemory(const sdf::Lattice& lattice) {
     const glm::dvec3 bricks(lattice.bricks());
-    const double needed =
-        kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
-        4.0 * bricks.x * bricks.y * bricks.z;
+    const double needed = kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
+                          4.0 * bricks.x * bricks.y * bricks.z;
     const double machine =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (needed > machine)
-        throw FailureError("memory", fmt::format("a mesh of {}x{}x{} cells may need {:.0f} MiB, this machine has {:.0f}",
-                                                 lattice.cells.x, lattice.cells.y, lattice.cells.z,
-                                                 needed / 0x1p20, machine / 0x1p20));
+        throw FailureError(
+            "memory", fmt::format("a mesh of {}x{}x{} cells may need {:.0f} MiB, this machine has {:.0f}",
+                                  lattice.cells.x, lattice.cells.y, lattice.cells.z, needed / 0x1p20,
+                                  machine / 0x1p20));
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
     result.cpu_seconds = cpuSeconds() - cpu_start;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (result.mesh.triangles.empty())
-        throw InputError(scene.source, "no surface was found in the box: it is empty there, or finer than a cell");
+        throw InputError(scene.source,
+                         "no surface was found in the box: it is empty there, or finer than a cell");
     return result;
 }
 

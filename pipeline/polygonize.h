@@ -20,8 +20,9 @@ struct WorldBox {
 
 struct PolygonizeOptions {
     Mesher mesher = Mesher::kDual;
-    int resolution = 128;         ///< cells along the box's longest side
-    std::optional<WorldBox> box;  ///< where the surface is looked for; none: the scene's bounds and a little more
+    int resolution = 128;  ///< cells along the box's longest side
+    std::optional<WorldBox>
+        box;  ///< where the surface is looked for; none: the scene's bounds and a little more
 };
 
 struct Polygonized {

@@ -80,7 +80,8 @@ class Writer {
 
     void addMesh() {
         const auto& materials = scene_.field->materials;
-        for (const sdf::SurfaceMaterial& material : materials) model_.materials.push_back(materialOf(material));
+        for (const sdf::SurfaceMaterial& material : materials)
+            model_.materials.push_back(materialOf(material));
         for (const auto& material : model_.materials)
             if (!material.extensions.empty()) model_.extensionsUsed = {"KHR_materials_unlit"};
         std::vector<Primitive> primitives(materials.size());
@@ -114,9 +115,9 @@ class Writer {
     }
 
     int addVectors(const std::vector<float>& from, bool bounds) {
-        const int index = addAccessor(from.data(), from.size() * sizeof(float), from.size() / 3,
-                                      TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                      TINYGLTF_TARGET_ARRAY_BUFFER);
+        const int index =
+            addAccessor(from.data(), from.size() * sizeof(float), from.size() / 3,
+                        TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
         if (!bounds) return index;
         gltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
         accessor.minValues = accessor.maxValues = {from[0], from[1], from[2]};
@@ -127,7 +128,8 @@ class Writer {
         return index;
     }
 
-    int addAccessor(const void* data, std::size_t bytes, std::size_t count, int component, int type, int target) {
+    int addAccessor(const void* data, std::size_t bytes, std::size_t count, int component, int type,
+                    int target) {
         std::vector<unsigned char>& buffer = model_.buffers[0].data;
         gltf::BufferView view;
         view.buffer = 0;

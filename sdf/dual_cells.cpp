@@ -124,7 +124,8 @@ class Builder {
         for (int k = 0; k < 4; ++k) {
             const glm::ivec3 at = polygonCell(polygon, k);
             const CellLoops& loops = complex_.find(lattice_, at)->loops;
-            const EdgeEnds edge = edgeEnds(partnerOf(loops, polygonEdge(polygon, k), polygonFace(polygon, k)));
+            const EdgeEnds edge =
+                edgeEnds(partnerOf(loops, polygonEdge(polygon, k), polygonFace(polygon, k)));
             const glm::ivec3 corner = at + BrickCrossings::cornerOffset(edge.low);
             const std::uint32_t brick = brickAt(lattice_, complex_.bricks, corner);
             polygon.across[k] =

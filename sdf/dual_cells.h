@@ -28,7 +28,9 @@ struct DualVertex {
 struct DualCell {
     std::uint32_t first_vertex = 0;
     CellLoops loops;
-    std::uint32_t vertexOf(int edge) const { return first_vertex + static_cast<std::uint32_t>(loops.loop[edge]); }
+    std::uint32_t vertexOf(int edge) const {
+        return first_vertex + static_cast<std::uint32_t>(loops.loop[edge]);
+    }
 };
 
 /// Around a crossed edge: the four cells counter-clockwise about its axis, from the one below along the next
@@ -40,7 +42,7 @@ struct DualPolygon {
     std::uint32_t brick = 0;
     std::array<std::uint32_t, 4> vertex{};
     std::array<std::uint32_t, 4> across{};  ///< the polygon that shares side k, from vertex k to the next one
-    TangentPlane crossing{};  ///< of the surface with the edge
+    TangentPlane crossing{};                ///< of the surface with the edge
 };
 
 struct DualComplex {
@@ -48,8 +50,8 @@ struct DualComplex {
     std::vector<DualVertex> vertices;
     std::vector<DualPolygon> polygons;
     std::uint64_t cells = 0;
-    std::vector<DualCell> cell;          ///< those that the surface passes
-    std::vector<std::int32_t> cell_at;   ///< by brick and place in it; -1: none
+    std::vector<DualCell> cell;         ///< those that the surface passes
+    std::vector<std::int32_t> cell_at;  ///< by brick and place in it; -1: none
     /// nullptr: the surface does not pass it.
     const DualCell* find(const Lattice& lattice, const glm::ivec3& cell) const;
 };

@@ -53,8 +53,8 @@ class DualContouring {
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
-        counts_.added = refineMesh(mesh_, tape, lattice_.step,
-                                   {kSharpOff * lattice_.step, kSmoothOff * lattice_.step});
+        counts_.added =
+            refineMesh(mesh_, tape, lattice_.step, {kSharpOff * lattice_.step, kSmoothOff * lattice_.step});
         findMaterials(tape, mesh_);
         if (request_.attributes) findNormals(tape, mesh_);
         return std::move(mesh_);
@@ -79,8 +79,10 @@ class DualContouring {
         const glm::dvec3 from = glm::clamp(v.middle_world, low + rim, high - rim), way = target - from;
         double part = 1.0;
         for (int axis = 0; axis < 3; ++axis) {
-            if (target[axis] > high[axis] - rim) part = std::min(part, (high[axis] - rim - from[axis]) / way[axis]);
-            if (target[axis] < low[axis] + rim) part = std::min(part, (low[axis] + rim - from[axis]) / way[axis]);
+            if (target[axis] > high[axis] - rim)
+                part = std::min(part, (high[axis] - rim - from[axis]) / way[axis]);
+            if (target[axis] < low[axis] + rim)
+                part = std::min(part, (low[axis] + rim - from[axis]) / way[axis]);
         }
         return from + std::max(part, 0.0) * way;
     }
@@ -137,9 +139,10 @@ class DualContouring {
         for (const std::uint32_t p : polygonsOf(v)) {
             const DualPolygon& polygon = complex_.polygons[p];
             const auto at = [&](std::size_t k) { return mesh_.position_world[polygon.vertex[k % 4]]; };
-            const std::size_t k = std::find(polygon.vertex.begin(), polygon.vertex.end(), v) - polygon.vertex.begin();
-            most = std::max({most, off(place, at(k + 1)),
-                             std::min(off(place, at(k + 2)), off(at(k + 1), at(k + 3)))});
+            const std::size_t k =
+                std::find(polygon.vertex.begin(), polygon.vertex.end(), v) - polygon.vertex.begin();
+            most = std::max(
+                {most, off(place, at(k + 1)), std::min(off(place, at(k + 2)), off(at(k + 1), at(k + 3)))});
         }
         return most;
     }
@@ -240,7 +243,8 @@ class DualContouring {
     }
 
     bool hasMiddle(std::uint32_t p) const {
-        return std::any_of(middles_[p].begin(), middles_[p].end(), [](std::uint32_t m) { return m != kNoVertex; });
+        return std::any_of(middles_[p].begin(), middles_[p].end(),
+                           [](std::uint32_t m) { return m != kNoVertex; });
     }
 
     void triangulate() {
@@ -289,13 +293,14 @@ class DualContouring {
         const glm::dvec3 at = a + (plane - a[axis]) / run * (b - a);
         const glm::ivec3 cell = polygonCell(polygon, k);
         for (const int i : {int(polygon.axis), other})
-            if (at[i] < lattice_.coordinate(i, cell[i]) || at[i] > lattice_.coordinate(i, cell[i] + 1)) return false;
+            if (at[i] < lattice_.coordinate(i, cell[i]) || at[i] > lattice_.coordinate(i, cell[i] + 1))
+                return false;
         return true;
     }
 
-    /// Whether both triangles stay within the polygon's envelope, the tetrahedra of its edge and its sides: for
-    /// the diagonal from vertex `d`. The edge passes one of them, and the diagonal the triangle of the edge
-    /// and the fourth vertex.
+    /// Whether both triangles stay within the polygon's envelope, the tetrahedra of its edge and its sides:
+    /// for the diagonal from vertex `d`. The edge passes one of them, and the diagonal the triangle of the
+    /// edge and the fourth vertex.
     bool aroundEdge(const DualPolygon& polygon, int d) const {
         const int u = (polygon.axis + 1) % 3, v = (polygon.axis + 2) % 3;
         const glm::dvec3 edge = lattice_.corner(polygon.corner);
@@ -314,7 +319,8 @@ class DualContouring {
             const double a = turn(0, j), b = turn(2, j), part = a / (a - b);
             if (!(a * b < 0.0)) return false;
             const glm::dvec3 at = x[0] + part * (x[2] - x[0]);
-            const double along = (at[u] * x[j][u] + at[v] * x[j][v]) / (x[j][u] * x[j][u] + x[j][v] * x[j][v]);
+            const double along =
+                (at[u] * x[j][u] + at[v] * x[j][v]) / (x[j][u] * x[j][u] + x[j][v] * x[j][v]);
             const double height = at[polygon.axis] - along * x[j][polygon.axis];
             return along >= 0.0 && along <= 1.0 && height >= 0.0 && height <= (1.0 - along) * lattice_.step;
         };
@@ -322,8 +328,8 @@ class DualContouring {
     }
 
     double offAlong(const DualPolygon& polygon, int d) const {
-        const glm::dvec3 middle = 0.5 * (mesh_.position_world[polygon.vertex[d]] +
-                                         mesh_.position_world[polygon.vertex[d + 2]]);
+        const glm::dvec3 middle =
+            0.5 * (mesh_.position_world[polygon.vertex[d]] + mesh_.position_world[polygon.vertex[d + 2]]);
         return std::abs(valueAt(tapeOf(polygon.brick), middle));
     }
 
@@ -390,7 +396,8 @@ class DualContouring {
         if (care_[v] < kDivided) care_[v] = static_cast<std::uint8_t>(care_[v] + 1);
         if (care_[v] == kInCell && inOwnCell(vertex, place)) care_[v] = kHalfway;
         if (care_[v] == kInCell) place = heldOnSurface(vertex);
-        if (care_[v] == kHalfway) place = 0.5 * (heldInCell(vertex, vertex.target_world) + vertex.middle_world);
+        if (care_[v] == kHalfway)
+            place = 0.5 * (heldInCell(vertex, vertex.target_world) + vertex.middle_world);
         if (care_[v] >= kMiddle) place = vertex.middle_world;
     }
 

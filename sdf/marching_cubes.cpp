@@ -114,7 +114,8 @@ class MarchingCubes {
                                     n / (kBrickCells * kBrickCells));
             for (int axis = 0; axis < 3; ++axis)
                 if (const Crossing* c = crossings_.crossing(corner, axis)) {
-                    vertexAt(brick.first + corner, axis) = static_cast<std::uint32_t>(mesh_.position_world.size());
+                    vertexAt(brick.first + corner, axis) =
+                        static_cast<std::uint32_t>(mesh_.position_world.size());
                     mesh_.position_world.push_back(c->place_world);
                 }
         }

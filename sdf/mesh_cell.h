@@ -36,9 +36,9 @@ constexpr std::array<int, 4> faceCorners(int face) {
 /// outside the surface they go clockwise.
 struct CellLoops {
     int count = 0;
-    std::array<std::int8_t, kCellEdges> loop;  ///< an edge's; -1: the surface does not cross it
-    std::array<std::int8_t, kCellEdges> next;  ///< the edge after it
-    std::array<std::int8_t, kCellEdges> first; ///< a loop's lowest edge
+    std::array<std::int8_t, kCellEdges> loop;   ///< an edge's; -1: the surface does not cross it
+    std::array<std::int8_t, kCellEdges> next;   ///< the edge after it
+    std::array<std::int8_t, kCellEdges> first;  ///< a loop's lowest edge
 };
 
 /// `values`: at the corners; inside is below 0. Where a face has two inside corners across, the sign at the

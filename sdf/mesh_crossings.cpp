@@ -93,8 +93,9 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
             }
             glm::ivec3 end = e.corner;
             ++end[e.axis];
-            roots.begin(roots.lane[lane], p[e.axis], lattice.coordinate(e.axis, brick.first[e.axis] + end[e.axis]),
-                        value(e.corner), value(end), lattice.step);
+            roots.begin(roots.lane[lane], p[e.axis],
+                        lattice.coordinate(e.axis, brick.first[e.axis] + end[e.axis]), value(e.corner),
+                        value(end), lattice.step);
         }
         double values[kPointLanes];
         for (int step = 0; step < kMostRootSteps; ++step) {

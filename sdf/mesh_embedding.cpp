@@ -13,9 +13,11 @@ using Points = std::span<const glm::dvec3>;
 /// by less than 1e-15 times the sum of its terms' sizes (Shewchuk 1997 has 7.8e-16).
 int sideOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const glm::dvec3 p = a - d, q = b - d, r = c - d;
-    const double qr = q.x * r.y, rq = r.x * q.y, rp = r.x * p.y, pr = p.x * r.y, pq = p.x * q.y, qp = q.x * p.y;
+    const double qr = q.x * r.y, rq = r.x * q.y, rp = r.x * p.y, pr = p.x * r.y, pq = p.x * q.y,
+                 qp = q.x * p.y;
     const double det = p.z * (qr - rq) + q.z * (rp - pr) + r.z * (pq - qp);
-    const double size = std::abs(p.z) * (std::abs(qr) + std::abs(rq)) + std::abs(q.z) * (std::abs(rp) + std::abs(pr)) +
+    const double size = std::abs(p.z) * (std::abs(qr) + std::abs(rq)) +
+                        std::abs(q.z) * (std::abs(rp) + std::abs(pr)) +
                         std::abs(r.z) * (std::abs(pq) + std::abs(qp));
     const double error = 1e-15 * size + 1e-300;
     return det > error ? 1 : det < -error ? -1 : 0;
@@ -142,8 +144,10 @@ bool trianglesMeet(Points x, const Triangle& a, const Triangle& b) {
     return false;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x, std::span<const Triangle> triangles,
-                                                                  const std::vector<bool>& doubtful, double cell) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
+                                                                  std::span<const Triangle> triangles,
+                                                                  const std::vector<bool>& doubtful,
+                                                                  double cell) {
     struct Entry {
         std::uint64_t key;
         std::uint32_t triangle;
@@ -175,7 +179,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x, std:
     for (const std::uint64_t key : asked) seen[hashed(key)] = true;
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         forCells(triangles[t], [&](std::uint64_t key) {
-            if (seen[hashed(key)] && std::binary_search(asked.begin(), asked.end(), key)) entries.push_back({key, t});
+            if (seen[hashed(key)] && std::binary_search(asked.begin(), asked.end(), key))
+                entries.push_back({key, t});
         });
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return a.key < b.key || (a.key == b.key && a.triangle < b.triangle);

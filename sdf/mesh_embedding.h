@@ -16,6 +16,7 @@ bool trianglesMeet(std::span<const glm::dvec3> positions, const Triangle& a, con
 /// All such pairs of triangles of which one is doubtful. `cell`: about a triangle's size.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(std::span<const glm::dvec3> positions,
                                                                   std::span<const Triangle> triangles,
-                                                                  const std::vector<bool>& doubtful, double cell);
+                                                                  const std::vector<bool>& doubtful,
+                                                                  double cell);
 
 }  // namespace edgewise::sdf

@@ -60,8 +60,8 @@ FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> gi
             break;
         }
         for (std::size_t i = 0; i < given.size(); ++i)
-            planes[i] = tangentPlane(tape, found.place + kNearer * (planes[i].point - found.place),
-                                     planes[i].normal);
+            planes[i] =
+                tangentPlane(tape, found.place + kNearer * (planes[i].point - found.place), planes[i].normal);
         found = nearestToPlanes(own, found.place, kCutoff);
     }
     return {found.place, found.rank};

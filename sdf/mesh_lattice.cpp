@@ -18,7 +18,11 @@ constexpr double kBeyond[3] = {0.0314159265, 0.0271828183, 0.0141421356};
 class Octree {
   public:
     Octree(const Tape& tape, const Lattice& lattice, bool bound_holds, BrickList& found)
-        : tape_(tape), lattice_(lattice), bound_holds_(bound_holds), found_(found), bricks_(lattice.bricks()) {
+        : tape_(tape),
+          lattice_(lattice),
+          bound_holds_(bound_holds),
+          found_(found),
+          bricks_(lattice.bricks()) {
         found_.at.assign(static_cast<std::size_t>(bricks_.x) * bricks_.y * bricks_.z, kNoBrick);
     }
 
@@ -43,7 +47,8 @@ class Octree {
         const glm::dvec3 centre = centreOf(first, size);
         if (bound_holds_) {
             const double scale = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + half;
-            return std::abs(value) > tape_.lipschitz * (half * std::sqrt(3.0) + 1e-12 * scale) * (1.0 + 1e-12);
+            return std::abs(value) >
+                   tape_.lipschitz * (half * std::sqrt(3.0) + 1e-12 * scale) * (1.0 + 1e-12);
         }
         Interval box[3];
         for (int axis = 0; axis < 3; ++axis) box[axis] = {centre[axis] - half, centre[axis] + half};
@@ -99,8 +104,8 @@ class Octree {
             std::copy_n(tape.picks, tape.count, brick.picks.get());
             brick.tape.picks = brick.picks.get();
         }
-        const std::size_t at =
-            first.x + static_cast<std::size_t>(bricks_.x) * (first.y + static_cast<std::size_t>(bricks_.y) * first.z);
+        const std::size_t at = first.x + static_cast<std::size_t>(bricks_.x) *
+                                             (first.y + static_cast<std::size_t>(bricks_.y) * first.z);
         found_.at[at] = static_cast<std::uint32_t>(found_.bricks.size());
         found_.bricks.push_back(std::move(brick));
     }

@@ -31,8 +31,8 @@ struct Lattice {
     glm::ivec3 bricks() const { return cells / kBrickCells; }
 };
 
-/// `resolution` cells along the box's longest side, rounded up to whole bricks. The lattice is a little larger
-/// than the box and off its planes, as what is modelled likes to lie on round numbers.
+/// `resolution` cells along the box's longest side, rounded up to whole bricks. The lattice is a little
+/// larger than the box and off its planes, as what is modelled likes to lie on round numbers.
 Lattice latticeOf(const glm::dvec3& low_world, const glm::dvec3& high_world, int resolution);
 
 struct Brick {
@@ -45,7 +45,7 @@ struct BrickList {
     std::vector<Brick> bricks;            ///< all that the surface may pass
     std::vector<std::uint32_t> at;        ///< by place in Lattice::bricks(), x fastest; kNoBrick: none
     std::uint64_t nodes = 0, pruned = 0;  ///< of the octree: visited, and of those left out
-    bool open = false;                    ///< a part that was left out is inside and reaches the lattice's end
+    bool open = false;  ///< a part that was left out is inside and reaches the lattice's end
 };
 inline constexpr std::uint32_t kNoBrick = 0xffffffffu;
 

@@ -18,7 +18,8 @@ void diagonalise(glm::dmat3& a, glm::dmat3& vectors) {
             for (int q = p + 1; q < 3; ++q) {
                 if (std::abs(a[p][q]) <= 1e-300 + 1e-17 * (std::abs(a[p][p]) + std::abs(a[q][q]))) continue;
                 const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                const double t = (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+                const double t =
+                    (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
                 const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
                 const auto rotate = [&](double& x, double& y) {
                     const double keep = x;

@@ -12,7 +12,7 @@
 namespace edgewise::sdf {
 namespace {
 
-constexpr int kRounds = 8, kRetreats = 3;
+constexpr int kRounds = 8, kRetreats = 12;
 /// A new vertex is worth it when what is off becomes less than this part.
 constexpr double kGain = 0.8;
 /// Of an edge's length: from its middle to where it is divided.
@@ -31,7 +31,11 @@ struct Added {
 class Refiner {
   public:
     Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits)
-        : mesh_(mesh), tape_(tape), step_(step), limits_(limits), around_(mesh.position_world.size()),
+        : mesh_(mesh),
+          tape_(tape),
+          step_(step),
+          limits_(limits),
+          around_(mesh.position_world.size()),
           stuck_(mesh.position_world.size(), false) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             for (const std::uint32_t v : mesh.triangles[t]) around_[v].push_back(t);
@@ -110,7 +114,8 @@ class Refiner {
     }
 
     /// The half at b becomes a triangle of its own.
-    void splitTriangle(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t tip, std::uint32_t v) {
+    void splitTriangle(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t tip,
+                       std::uint32_t v) {
         const auto half = static_cast<std::uint32_t>(mesh_.triangles.size());
         Triangle other = mesh_.triangles[t];
         std::replace(other.begin(), other.end(), a, v);
@@ -135,7 +140,8 @@ class Refiner {
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
         // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
-        for (const auto& [count, parts] : {std::pair{4, std::array{0.25, 0.6}}, std::pair{2, std::array{0.8, 0.97}}}) {
+        for (const auto& [count, parts] :
+             {std::pair{4, std::array{0.25, 0.6}}, std::pair{2, std::array{0.8, 0.97}}}) {
             std::vector<TangentPlane> planes;
             for (int end = 0; end < count; ++end)
                 for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
@@ -181,7 +187,8 @@ class Refiner {
     const double step_;
     const RefineLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<bool> stuck_, touched_;  ///< triangles of this round; vertices that could not go where they belong
+    std::vector<bool> stuck_,
+        touched_;  ///< triangles of this round; vertices that could not go where they belong
     std::vector<Added> added_;
 };
 

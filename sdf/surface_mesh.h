@@ -15,7 +15,8 @@ struct SurfaceMesh {
     std::vector<Triangle> triangles;  ///< counter-clockwise seen from outside
     // Below: one a triangle, or empty where they were not asked for.
     std::vector<std::uint32_t> material;  ///< of the shape whose value wins there; kNoMaterial: of none
-    std::vector<std::array<glm::dvec3, 3>> normal_world;  ///< unit, at its corners, from its own side of creases
+    std::vector<std::array<glm::dvec3, 3>>
+        normal_world;  ///< unit, at its corners, from its own side of creases
 };
 
 }  // namespace edgewise::sdf

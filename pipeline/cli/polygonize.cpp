@@ -36,10 +36,10 @@ WorldBox parseBox(const std::string& text) {
     for (int n = 0; n < 3 && comma != std::string::npos; ++n) comma = text.find(',', comma + (n > 0));
     if (comma == std::string::npos)
         throw InputError("--box", fmt::format("'{}' is not X0,Y0,Z0,X1,Y1,Z1", text));
-    const WorldBox box{parseTriple("--box", text.substr(0, comma)), parseTriple("--box", text.substr(comma + 1))};
+    const WorldBox box{parseTriple("--box", text.substr(0, comma)),
+                       parseTriple("--box", text.substr(comma + 1))};
     for (int axis = 0; axis < 3; ++axis)
-        if (!(box.low[axis] < box.high[axis]))
-            throw InputError("--box", fmt::format("'{}' is empty", text));
+        if (!(box.low[axis] < box.high[axis])) throw InputError("--box", fmt::format("'{}' is empty", text));
     return box;
 }
 
@@ -64,7 +64,8 @@ nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check)
     record["seconds"] = made.seconds;
     record["cpu_seconds"] = made.cpu_seconds;
     record["cell"] = made.lattice.step;
-    record["octree"] = {{"nodes", made.counts.nodes}, {"pruned", made.counts.pruned}, {"bricks", made.counts.bricks}};
+    record["octree"] = {
+        {"nodes", made.counts.nodes}, {"pruned", made.counts.pruned}, {"bricks", made.counts.bricks}};
     record["cells"] = made.counts.cells;
     record["mended"] = made.counts.mended;
     record["collapsed"] = made.counts.collapsed;
@@ -93,7 +94,8 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
     CLI::App* command = program.add_subcommand("polygonize", "a mesh of an SDF scene");
     auto arguments = std::make_shared<PolygonizeArguments>();
     arguments->command_line = command_line;
-    command->add_option("SCENE", arguments->scene, ".sdf.json file, or a name of `edgewise scenes`")->required();
+    command->add_option("SCENE", arguments->scene, ".sdf.json file, or a name of `edgewise scenes`")
+        ->required();
     command->add_option("-o,--output", arguments->output, "positions in float32")
         ->type_name("MESH.glb")
         ->required();
@@ -103,7 +105,8 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
     command->add_option("--resolution", arguments->resolution, "cells along the box's longest side [128]")
         ->type_name("N");
     command
-        ->add_option("--box", arguments->box, "where the surface is looked for [the scene's bounds and a little more]")
+        ->add_option("--box", arguments->box,
+                     "where the surface is looked for [the scene's bounds and a little more]")
         ->type_name("X0,Y0,Z0,X1,Y1,Z1");
     command->add_option("--stats", arguments->stats, "the mesh's quality, times and counts")
         ->type_name("FILE.json");

@@ -28,7 +28,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr int kNewtonSteps = 20, kBisections = 60;
 /// Of a triangle: corners' weights. Edges' middles, the centre, and halfway from it to the corners.
-constexpr double kPlaces[][3] = {{0.5, 0.5, 0.0},         {0.0, 0.5, 0.5},           {0.5, 0.0, 0.5},
+constexpr double kPlaces[][3] = {{0.5, 0.5, 0.0},          {0.0, 0.5, 0.5},          {0.5, 0.0, 0.5},
                                  {1 / 3., 1 / 3., 1 / 3.}, {4 / 6., 1 / 6., 1 / 6.}, {1 / 6., 4 / 6., 1 / 6.},
                                  {1 / 6., 1 / 6., 4 / 6.}};
 
@@ -78,7 +78,6 @@ bool crossing(const sdf::TapeView& tape, glm::dvec3 inside, glm::dvec3 outside, 
     return true;
 }
 
-
 class SurfaceToMesh {
   public:
     SurfaceToMesh(Triangles& triangles, const sdf::Lattice& lattice, int per_cell, MeshDistance& result)
@@ -89,7 +88,8 @@ class SurfaceToMesh {
     void brick(const sdf::Brick& brick) {
         constexpr int kSide = sdf::kBrickCells;
         for (int n = 0; n < kSide * kSide * kSide; ++n) {
-            const glm::ivec3 cell = brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
+            const glm::ivec3 cell =
+                brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
             const glm::dvec3 low = lattice_.corner(cell);
             const double value = sdf::valueAt(brick.tape, low + 0.5 * lattice_.step);
             if (std::abs(value) > 1.75 * lattice_.step * slope_) continue;
@@ -140,7 +140,8 @@ std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::
     return result;
 }
 #else
-std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh&, const sdf::Tape&, const sdf::Lattice&, bool, int) {
+std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh&, const sdf::Tape&, const sdf::Lattice&, bool,
+                                       int) {
     return std::nullopt;
 }
 #endif

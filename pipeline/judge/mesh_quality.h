@@ -21,8 +21,8 @@ struct MeshDistance {
 
 struct MeshQuality {
     std::size_t vertices = 0, triangles = 0, edges = 0;
-    std::size_t border_edges = 0;        ///< of one triangle
-    std::size_t nonmanifold_edges = 0;   ///< of more than two triangles, or of two that pass it the same way
+    std::size_t border_edges = 0;       ///< of one triangle
+    std::size_t nonmanifold_edges = 0;  ///< of more than two triangles, or of two that pass it the same way
     std::size_t nonmanifold_vertices = 0;  ///< whose triangles are no single fan
     std::size_t components = 0;
     std::int64_t euler = 0;  ///< vertices - edges + triangles
