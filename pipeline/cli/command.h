@@ -17,6 +17,7 @@ void addMerge(CLI::App& program);
 void addWeights(CLI::App& program);
 void addMetrics(CLI::App& program);
 void addPost(CLI::App& program, const std::string& command_line);
+void addPolygonize(CLI::App& program, const std::string& command_line);
 void addInfo(CLI::App& program);
 void addMethods(CLI::App& program);
 void addFilters(CLI::App& program);

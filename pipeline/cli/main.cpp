@@ -46,6 +46,7 @@ void parseAndRun(int argc, char** argv) {
     addWeights(program);
     addMetrics(program);
     addPost(program, command_line);
+    addPolygonize(program, command_line);
     addInfo(program);
     addMethods(program);
     addFilters(program);

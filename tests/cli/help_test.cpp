@@ -14,8 +14,8 @@ TEST(Help, NamesEveryCommand) {
     const ProgramRun run = runProgram({"--help"});
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.err, "");
-    for (const char* command : {"render", "compare", "sweep", "merge", "weights", "metrics", "post", "info",
-                                "methods", "filters", "scenes"})
+    for (const char* command : {"render", "compare", "sweep", "merge", "polygonize", "weights", "metrics",
+                                "post", "info", "methods", "filters", "scenes"})
         EXPECT_NE(run.out.find(std::string("\n  ") + command), std::string::npos) << command;
 }
 

@@ -1,6 +1,7 @@
 // SDF scenes as users and scripts meet them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,6 +27,32 @@ constexpr const char* kBall = R"({
 ProgramRun inFolder(const TemporaryFolder& folder, const Arguments& arguments) {
     writeFile(folder / "ball.sdf.json", kBall);
     return runProgram(arguments, folder.path());
+}
+
+TEST(SdfCommand, PolygonizesIntoAGltfWithItsRecord) {
+    const TemporaryFolder folder;
+    const ProgramRun run = inFolder(
+        folder, {"polygonize", "ball.sdf.json", "-o", "ball.glb", "--resolution", "16", "--stats", "s.json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json record = json::parse(run.out);
+    EXPECT_EQ(record, json::parse(readFile(folder / "s.json")));
+    EXPECT_EQ(record["euler"], 2);
+    EXPECT_TRUE(record["closed"]);
+    const ProgramRun info = runProgram({"info", "ball.glb", "--json"}, folder.path());
+    EXPECT_EQ(info.status, 0) << info.err;
+    const Arguments wrong[] = {{"--mesher", "best"},
+                               {"--resolution", "0"},
+                               {"--box", "1,2,3"},
+                               {"--box", "0,0,0,0,1,1"},
+                               {"--box", "0,0,0,2,2,2"}};
+    for (const Arguments& more : wrong) {
+        Arguments arguments{"polygonize", "ball.sdf.json", "-o", "wrong.glb"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun refused = runProgram(arguments, folder.path());
+        EXPECT_EQ(refused.status, 2) << more.back();
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+        EXPECT_FALSE(fs::exists(folder / "wrong.glb"));
+    }
 }
 
 TEST(SdfCommand, RendersWithEveryMethodAndAllChannels) {

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/atomic_file.h"
+#include "pipeline/cli/command.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/parse_values.h"
+#include "pipeline/cli/picture_options.h"
+#include "pipeline/error.h"
+#include "pipeline/judge/mesh_quality.h"
+#include "pipeline/load_scene.h"
+#include "pipeline/polygonize.h"
+#include "pipeline/scene_catalog.h"
+#include "pipeline/write_mesh.h"
+#include "sdf/field_scene.h"
+
+namespace edgewise::cli {
+namespace {
+
+constexpr int kLinesPerCell = 4;
+
+struct PolygonizeArguments {
+    std::string scene, output, mesher = "dual", command_line;
+    std::optional<std::string> resolution, box, stats;
+    bool no_check = false, quiet = false;
+};
+
+WorldBox parseBox(const std::string& text) {
+    std::size_t comma = 0;
+    for (int n = 0; n < 3 && comma != std::string::npos; ++n) comma = text.find(',', comma + (n > 0));
+    if (comma == std::string::npos)
+        throw InputError("--box", fmt::format("'{}' is not X0,Y0,Z0,X1,Y1,Z1", text));
+    const WorldBox box{parseTriple("--box", text.substr(0, comma)),
+                       parseTriple("--box", text.substr(comma + 1))};
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(box.low[axis] < box.high[axis])) throw InputError("--box", fmt::format("'{}' is empty", text));
+    return box;
+}
+
+PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
+    PolygonizeOptions options;
+    options.mesher = parseMesher(arguments.mesher);
+    if (arguments.resolution)
+        options.resolution =
+            static_cast<int>(parseInteger("--resolution", *arguments.resolution, 4, sdf::kMostResolution));
+    if (arguments.box) options.box = parseBox(*arguments.box);
+    return options;
+}
+
+nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check) {
+    MeshQuality quality = qualityOf(made.mesh);
+    if (check) {
+        quality.self_intersections = selfIntersections(made.mesh);
+        quality.distance = distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice,
+                                      scene.field->bound_holds, kLinesPerCell);
+    }
+    nlohmann::json record = jsonOf(quality);
+    record["seconds"] = made.seconds;
+    record["cpu_seconds"] = made.cpu_seconds;
+    record["cell"] = made.lattice.step;
+    record["octree"] = {
+        {"nodes", made.counts.nodes}, {"pruned", made.counts.pruned}, {"bricks", made.counts.bricks}};
+    record["cells"] = made.counts.cells;
+    record["mended"] = made.counts.mended;
+    record["collapsed"] = made.counts.collapsed;
+    record["added"] = made.counts.added;
+    return record;
+}
+
+void polygonizeScene(const PolygonizeArguments& arguments) {
+    checkOutputPath(arguments.output);
+    if (arguments.stats) checkOutputPath(*arguments.stats);
+    const PolygonizeOptions options = optionsOf(arguments);
+    Scene scene = loadScene(findScene(arguments.scene));
+    scene.source = arguments.scene;
+    warnOfIgnored(scene);
+    const Polygonized made = polygonize(scene, options);
+    throwIfInterrupted();
+    writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
+    const nlohmann::json record = recordOf(made, scene, !arguments.no_check);
+    if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
+    if (!arguments.quiet) fmt::print("{}\n", record.dump(1));
+}
+
+}  // namespace
+
+void addPolygonize(CLI::App& program, const std::string& command_line) {
+    CLI::App* command = program.add_subcommand("polygonize", "a mesh of an SDF scene");
+    auto arguments = std::make_shared<PolygonizeArguments>();
+    arguments->command_line = command_line;
+    command->add_option("SCENE", arguments->scene, ".sdf.json file, or a name of `edgewise scenes`")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "positions in float32")
+        ->type_name("MESH.glb")
+        ->required();
+    command->add_option("--mesher", arguments->mesher, "dual: sharp edges kept; marching-cubes")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--resolution", arguments->resolution, "cells along the box's longest side [128]")
+        ->type_name("N");
+    command
+        ->add_option("--box", arguments->box,
+                     "where the surface is looked for [the scene's bounds and a little more]")
+        ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+    command->add_option("--stats", arguments->stats, "the mesh's quality, times and counts")
+        ->type_name("FILE.json");
+    command->add_flag("--no-check", arguments->no_check, "self-intersections and distances are not measured");
+    command->add_flag("--quiet", arguments->quiet, "nothing is printed");
+    command->callback([arguments] { polygonizeScene(*arguments); });
+}
+
+}  // namespace edgewise::cli

@@ -1,0 +1,149 @@
+// Distances between a mesh and the surface of a field, both ways.
+#include "pipeline/judge/mesh_quality.h"
+
+#ifdef EDGEWISE_HAS_ORACLE
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "sdf/evaluate.h"
+#include "sdf/mesh_attributes.h"
+#include "sdf/mesh_crossings.h"
+#endif
+
+namespace edgewise {
+
+#ifdef EDGEWISE_HAS_ORACLE
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+constexpr int kNewtonSteps = 20, kBisections = 60;
+/// Of a triangle: corners' weights. Edges' middles, the centre, and halfway from it to the corners.
+constexpr double kPlaces[][3] = {{0.5, 0.5, 0.0},          {0.0, 0.5, 0.5},          {0.5, 0.0, 0.5},
+                                 {1 / 3., 1 / 3., 1 / 3.}, {4 / 6., 1 / 6., 1 / 6.}, {1 / 6., 4 / 6., 1 / 6.},
+                                 {1 / 6., 1 / 6., 4 / 6.}};
+
+Kernel::Point_3 point(const glm::dvec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// How far along gradients the surface is: an upper bound of the distance, once the value is 0 there.
+double toSurface(const sdf::TapeAt& tape, const glm::dvec3& from) {
+    glm::dvec3 p = from;
+    double value = 0.0;
+    for (int step = 0; step < kNewtonSteps; ++step) {
+        const sdf::ValueAndGradient at = sdf::gradientAt(tape(p), p);
+        const double slope2 = glm::dot(at.gradient, at.gradient);
+        value = at.value;
+        if (!(slope2 > 0.0)) break;
+        const glm::dvec3 next = p - at.gradient * (at.value / slope2);
+        if (next == p) break;
+        p = next;
+    }
+    return std::max(glm::distance(p, from), std::abs(value));
+}
+
+void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, MeshDistance& result) {
+    for (const sdf::Triangle& t : mesh.triangles) {
+        const glm::dvec3 &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]],
+                         &c = mesh.position_world[t[2]];
+        // Every place of a triangle is within a third of its longest side of one that is asked.
+        const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        result.mesh_spacing = std::max(result.mesh_spacing, longest / 3.0);
+        for (const auto& w : kPlaces)
+            result.mesh_to_surface =
+                std::max(result.mesh_to_surface, toSurface(tape, w[0] * a + w[1] * b + w[2] * c));
+        result.mesh_samples += std::size(kPlaces);
+    }
+}
+
+/// Where the surface crosses a segment, if the signs at its ends differ.
+bool crossing(const sdf::TapeView& tape, glm::dvec3 inside, glm::dvec3 outside, glm::dvec3& place) {
+    const bool first = sdf::valueAt(tape, inside) < 0.0, second = sdf::valueAt(tape, outside) < 0.0;
+    if (first == second) return false;
+    if (second) std::swap(inside, outside);
+    for (int step = 0; step < kBisections; ++step) {
+        place = 0.5 * (inside + outside);
+        (sdf::valueAt(tape, place) < 0.0 ? inside : outside) = place;
+    }
+    return true;
+}
+
+class SurfaceToMesh {
+  public:
+    SurfaceToMesh(Triangles& triangles, const sdf::Lattice& lattice, int per_cell, MeshDistance& result)
+        : tree_(triangles.begin(), triangles.end()), lattice_(lattice), per_cell_(per_cell), result_(result) {
+        tree_.build();
+    }
+
+    void brick(const sdf::Brick& brick) {
+        constexpr int kSide = sdf::kBrickCells;
+        for (int n = 0; n < kSide * kSide * kSide; ++n) {
+            const glm::ivec3 cell =
+                brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
+            const glm::dvec3 low = lattice_.corner(cell);
+            const double value = sdf::valueAt(brick.tape, low + 0.5 * lattice_.step);
+            if (std::abs(value) > 1.75 * lattice_.step * slope_) continue;
+            for (int line = 0; line < per_cell_; ++line) ask(brick.tape, low);
+        }
+    }
+    void slope(double most) { slope_ = std::max(most, 1e-3); }
+
+  private:
+    /// On a line of about a cell's length, its middle anywhere in the cell.
+    void ask(const sdf::TapeView& tape, const glm::dvec3& low) {
+        std::uniform_real_distribution<double> at(0.0, 1.0), side(-1.0, 1.0);
+        const glm::dvec3 middle = low + lattice_.step * glm::dvec3(at(random_), at(random_), at(random_));
+        glm::dvec3 along(side(random_), side(random_), side(random_));
+        along *= lattice_.step / std::max(glm::length(along), 0.1);
+        glm::dvec3 place;
+        if (!crossing(tape, middle - along, middle + along, place)) return;
+        ++result_.surface_samples;
+        const double distance = std::sqrt(tree_.squared_distance(point(place)));
+        if (distance <= result_.surface_to_mesh) return;
+        result_.surface_to_mesh = distance;
+        result_.worst_on_surface = place;
+    }
+
+    Tree tree_;
+    const sdf::Lattice& lattice_;
+    const int per_cell_;
+    MeshDistance& result_;
+    double slope_ = 1.0;
+    std::mt19937_64 random_{1};
+};
+
+}  // namespace
+
+std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::Tape& tape,
+                                       const sdf::Lattice& lattice, bool bound_holds, int per_cell) {
+    MeshDistance result;
+    const sdf::BrickList bricks = sdf::findBricks(tape, lattice, bound_holds);
+    meshToSurface(mesh, sdf::TapeAt(tape, lattice, bricks), result);
+    Triangles triangles;
+    for (const sdf::Triangle& t : mesh.triangles)
+        triangles.emplace_back(point(mesh.position_world[t[0]]), point(mesh.position_world[t[1]]),
+                               point(mesh.position_world[t[2]]));
+    SurfaceToMesh ask(triangles, lattice, per_cell, result);
+    ask.slope(bound_holds ? tape.lipschitz : 1e6);
+    for (const sdf::Brick& brick : bricks.bricks) ask.brick(brick);
+    result.surface_spacing = std::sqrt(qualityOf(mesh).area / std::max<double>(1.0, result.surface_samples));
+    return result;
+}
+#else
+std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh&, const sdf::Tape&, const sdf::Lattice&, bool,
+                                       int) {
+    return std::nullopt;
+}
+#endif
+
+}  // namespace edgewise

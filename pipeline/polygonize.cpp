@@ -1,0 +1,92 @@
+#include "pipeline/polygonize.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "pipeline/error.h"
+#include "sdf/field_scene.h"
+#include "sdf/scene_error.h"
+
+namespace edgewise {
+namespace {
+
+/// Of the bounds' longest side, how much further the default box reaches.
+constexpr double kMargin = 0.02;
+/// Bytes that a brick with surface takes in all, triangles and their checks included; measured on gyroids.
+constexpr double kBytesPerBrick = 60000.0;
+
+const sdf::FieldScene& fieldOf(const Scene& scene) {
+    if (!scene.field) throw InputError(scene.source, "is no SDF scene");
+    if (scene.field->tree.empty()) throw InputError(scene.source, "raw GLSL is not polygonized yet");
+    return *scene.field;
+}
+
+WorldBox boxOf(const Scene& scene) {
+    const sdf::FieldScene& field = *scene.field;
+    const sdf::Box bounds = sdf::levelBox(field.tree, field.tree.root);
+    if (bounds.empty()) throw InputError(scene.source, "holds no surface");
+    if (!bounds.bounded())
+        throw InputError(scene.source, "its tree is unbounded, a mesh of it needs --box X0,Y0,Z0,X1,Y1,Z1");
+    WorldBox box;
+    for (int axis = 0; axis < 3; ++axis) box.low[axis] = bounds.low[axis], box.high[axis] = bounds.high[axis];
+    const glm::dvec3 size = box.high - box.low;
+    const double margin = kMargin * std::max({size.x, size.y, size.z, 1e-9});
+    return {box.low - margin, box.high + margin};
+}
+
+double cpuSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// A surface passes at least about one brick a square of a brick's face: what is refused could not fit.
+void requireMemory(const sdf::Lattice& lattice) {
+    const glm::dvec3 bricks(lattice.bricks());
+    const double needed = kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
+                          4.0 * bricks.x * bricks.y * bricks.z;
+    const double machine =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (needed > machine)
+        throw FailureError(
+            "memory", fmt::format("a mesh of {}x{}x{} cells may need {:.0f} MiB, this machine has {:.0f}",
+                                  lattice.cells.x, lattice.cells.y, lattice.cells.z, needed / 0x1p20,
+                                  machine / 0x1p20));
+}
+
+}  // namespace
+
+Mesher parseMesher(const std::string& name) {
+    if (name == "dual") return Mesher::kDual;
+    if (name == "marching-cubes") return Mesher::kMarchingCubes;
+    throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes", name));
+}
+
+Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
+    const sdf::FieldScene& field = fieldOf(scene);
+    const WorldBox box = options.box ? *options.box : boxOf(scene);
+    Polygonized result;
+    result.lattice = sdf::latticeOf(box.low, box.high, options.resolution);
+    requireMemory(result.lattice);
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpuSeconds();
+    try {
+        const sdf::Tape tape = sdf::lower(field.tree);
+        const sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
+        result.mesh = options.mesher == Mesher::kDual ? sdf::dualContouring(request, result.counts)
+                                                      : sdf::marchingCubes(request, result.counts);
+    } catch (const sdf::SceneError& error) {
+        throw InputError(scene.source, error.what());
+    }
+    result.cpu_seconds = cpuSeconds() - cpu_start;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (result.mesh.triangles.empty())
+        throw InputError(scene.source,
+                         "no surface was found in the box: it is empty there, or finer than a cell");
+    return result;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,39 @@
+// Meshes of SDF scenes.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "pipeline/scene.h"
+#include "sdf/polygonize.h"
+
+namespace edgewise {
+
+enum class Mesher { kMarchingCubes, kDual };
+/// Throws InputError naming those that there are.
+Mesher parseMesher(const std::string& name);
+
+struct WorldBox {
+    glm::dvec3 low{0.0}, high{0.0};
+};
+
+struct PolygonizeOptions {
+    Mesher mesher = Mesher::kDual;
+    int resolution = 128;  ///< cells along the box's longest side
+    std::optional<WorldBox>
+        box;  ///< where the surface is looked for; none: the scene's bounds and a little more
+};
+
+struct Polygonized {
+    sdf::SurfaceMesh mesh;
+    sdf::Lattice lattice;
+    sdf::MeshCounts counts;
+    double seconds = 0.0, cpu_seconds = 0.0;
+};
+
+/// Throws InputError naming the scene: it is no SDF scene or raw GLSL, is unbounded and has no box, is empty,
+/// reaches the box's end; FailureError where the mesh would not fit into memory.
+Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options);
+
+}  // namespace edgewise

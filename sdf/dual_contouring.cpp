@@ -1,0 +1,423 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+
+#include "sdf/dual_cells.h"
+#include "sdf/evaluate.h"
+#include "sdf/mesh_attributes.h"
+#include "sdf/mesh_embedding.h"
+#include "sdf/mesh_feature.h"
+#include "sdf/mesh_refine.h"
+#include "sdf/mesh_simplify.h"
+#include "sdf/polygonize.h"
+
+namespace edgewise::sdf {
+namespace {
+
+/// Of a cell's side: a vertex is kept so far from its cell's faces when it is moved there.
+constexpr double kInside = 0.02;
+/// Of a cell's side: vertices of different cells nearer than that would be the same.
+constexpr double kApart = 0.05;
+constexpr int kMostMendings = 12;
+/// Of a cell's side: edges whose middles are further off the surface are divided.
+constexpr double kSharpOff = 0.015, kSmoothOff = 0.06;
+constexpr int kSettlings = 3;
+/// Of a cell's side: what is off the surface by no more is left as it is.
+constexpr double kSettled = 0.01;
+
+/// A vertex is at its target, or, to keep the mesh from meeting itself, moved towards its loop's middle.
+enum Care : std::uint8_t { kFree, kInCell, kHalfway, kMiddle, kDivided };
+
+class DualContouring {
+  public:
+    DualContouring(const MeshRequest& request, MeshCounts& counts)
+        : request_(request), lattice_(request.lattice), counts_(counts), complex_(dualComplex(request)) {
+        counts_.nodes = complex_.bricks.nodes, counts_.pruned = complex_.bricks.pruned;
+        counts_.bricks = complex_.bricks.bricks.size(), counts_.cells = complex_.cells;
+    }
+
+    SurfaceMesh run() {
+        placeVertices();
+        settle();
+        divided_.assign(complex_.polygons.size(), false);
+        turned_.assign(complex_.polygons.size(), false);
+        middles_.assign(complex_.polygons.size(), {kNoVertex, kNoVertex, kNoVertex, kNoVertex});
+        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p) partTwins(p);
+        diagonal_.assign(complex_.polygons.size(), 0xff);
+        for (int round = 0;; ++round) {
+            triangulate();
+            if (round == kMostMendings || !mend()) break;
+        }
+        const TapeAt tape(request_.tape, lattice_, complex_.bricks);
+        findMaterials(tape, mesh_);
+        counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
+        counts_.added =
+            refineMesh(mesh_, tape, lattice_.step, {kSharpOff * lattice_.step, kSmoothOff * lattice_.step});
+        findMaterials(tape, mesh_);
+        if (request_.attributes) findNormals(tape, mesh_);
+        return std::move(mesh_);
+    }
+
+  private:
+    const TapeView& tapeOf(std::uint32_t brick) const { return complex_.bricks.bricks[brick].tape; }
+    glm::ivec3 cellAt(const glm::dvec3& p) const {
+        return glm::ivec3(glm::floor((p - lattice_.low_world) / lattice_.step));
+    }
+    bool inOwnCell(const DualVertex& v, const glm::dvec3& p) const {
+        const glm::dvec3 low = lattice_.corner(v.cell), high = lattice_.corner(v.cell + 1);
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(p[axis] >= low[axis] && p[axis] <= high[axis])) return false;
+        return true;
+    }
+
+    /// On the way from the loop's middle to the target, the last place well within the cell.
+    glm::dvec3 heldInCell(const DualVertex& v, const glm::dvec3& target) const {
+        const glm::dvec3 low = lattice_.corner(v.cell), high = lattice_.corner(v.cell + 1);
+        const double rim = kInside * lattice_.step;
+        const glm::dvec3 from = glm::clamp(v.middle_world, low + rim, high - rim), way = target - from;
+        double part = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (target[axis] > high[axis] - rim)
+                part = std::min(part, (high[axis] - rim - from[axis]) / way[axis]);
+            if (target[axis] < low[axis] + rim)
+                part = std::min(part, (low[axis] + rim - from[axis]) / way[axis]);
+        }
+        return from + std::max(part, 0.0) * way;
+    }
+
+    /// A vertex may be in the cell next to its own where the surface has none of its own: a sharp edge that
+    /// just looks in. Two in one place would be one.
+    void placeVertices() {
+        care_.assign(complex_.vertices.size(), kFree);
+        std::map<std::tuple<int, int, int>, std::vector<glm::dvec3>> taken;
+        mesh_.position_world.resize(complex_.vertices.size());
+        for (std::size_t n = 0; n < complex_.vertices.size(); ++n) {
+            DualVertex& v = complex_.vertices[n];
+            if (!inOwnCell(v, v.target_world)) {
+                const glm::ivec3 at = cellAt(v.target_world), off = glm::abs(at - v.cell);
+                bool may = std::max({off.x, off.y, off.z}) <= 1 && !complex_.find(lattice_, at);
+                auto& others = taken[{at.x, at.y, at.z}];
+                for (const glm::dvec3& other : others)
+                    may &= glm::distance(other, v.target_world) > kApart * lattice_.step;
+                if (may)
+                    others.push_back(v.target_world);
+                else
+                    v.target_world = heldOnSurface(v), v.rank = 1;
+            }
+            mesh_.position_world[n] = v.target_world;
+        }
+    }
+    glm::dvec3 heldOnSurface(const DualVertex& v) const {
+        const glm::dvec3 held = heldInCell(v, v.target_world), moved = onSurface(tapeOf(v.brick), held);
+        return inOwnCell(v, moved) ? moved : heldInCell(v, moved);
+    }
+
+    void findPolygons() {
+        first_.assign(complex_.vertices.size() + 1, 0);
+        for (const DualPolygon& polygon : complex_.polygons)
+            for (const std::uint32_t v : polygon.vertex) ++first_[v + 1];
+        for (std::size_t v = 0; v < complex_.vertices.size(); ++v) first_[v + 1] += first_[v];
+        around_.resize(first_.back());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p)
+            for (const std::uint32_t v : complex_.polygons[p].vertex) around_[next[v]++] = p;
+    }
+    std::span<const std::uint32_t> polygonsOf(std::uint32_t v) const {
+        return std::span(around_).subspan(first_[v], first_[v + 1] - first_[v]);
+    }
+
+    /// How far the polygons around a vertex would be off the surface with it there, at the middles of their
+    /// sides and of the better diagonal.
+    double offWith(std::uint32_t v, const glm::dvec3& place) const {
+        const TapeView& tape = tapeOf(complex_.vertices[v].brick);
+        const auto off = [&](const glm::dvec3& a, const glm::dvec3& b) {
+            return std::abs(valueAt(tape, 0.5 * (a + b)));
+        };
+        double most = std::abs(valueAt(tape, place));
+        for (const std::uint32_t p : polygonsOf(v)) {
+            const DualPolygon& polygon = complex_.polygons[p];
+            const auto at = [&](std::size_t k) { return mesh_.position_world[polygon.vertex[k % 4]]; };
+            const std::size_t k =
+                std::find(polygon.vertex.begin(), polygon.vertex.end(), v) - polygon.vertex.begin();
+            most = std::max(
+                {most, off(place, at(k + 1)), std::min(off(place, at(k + 2)), off(at(k + 1), at(k + 3)))});
+        }
+        return most;
+    }
+
+    /// A sharp edge may pass cells that see one of its sides alone: their vertices take the other from the
+    /// cells around.
+    void settle() {
+        findPolygons();
+        for (int pass = 0; pass < kSettlings; ++pass) {
+            std::size_t moved = 0;
+            for (std::uint32_t v = 0; v < complex_.vertices.size(); ++v) moved += bySharp(v) && settle(v);
+            if (moved == 0) break;
+        }
+    }
+    bool bySharp(std::uint32_t v) const {
+        if (complex_.vertices[v].rank > 1) return true;
+        for (const std::uint32_t p : polygonsOf(v))
+            for (const std::uint32_t w : complex_.polygons[p].vertex)
+                if (complex_.vertices[w].rank > 1) return true;
+        return false;
+    }
+    bool settle(std::uint32_t v) {
+        DualVertex& vertex = complex_.vertices[v];
+        const glm::dvec3 now = mesh_.position_world[v];
+        double best = offWith(v, now);
+        if (best <= kSettled * lattice_.step) return false;
+        std::vector<std::uint32_t> seen;
+        std::vector<TangentPlane> planes;
+        glm::dvec3 sharp(0.0);
+        int sharp_count = 0;
+        for (const std::uint32_t p : polygonsOf(v))
+            for (const std::uint32_t w : complex_.polygons[p].vertex) {
+                if (w != v && complex_.vertices[w].rank > 1) sharp += mesh_.position_world[w], ++sharp_count;
+                for (const std::uint32_t q : polygonsOf(w)) seen.push_back(q);
+            }
+        std::sort(seen.begin(), seen.end());
+        seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+        for (const std::uint32_t q : seen)
+            if (planes.size() < kMostPlanes) planes.push_back(complex_.polygons[q].crossing);
+        bool moved = false;
+        const auto attempt = [&](const glm::dvec3& about) {
+            const FeaturePoint point = featurePoint(tapeOf(vertex.brick), planes, about, lattice_.step);
+            const glm::dvec3 from_cell =
+                glm::abs(point.place_world - (lattice_.corner(vertex.cell) + 0.5 * lattice_.step));
+            if (std::max({from_cell.x, from_cell.y, from_cell.z}) > 1.4 * lattice_.step) return;
+            const double off = offWith(v, point.place_world);
+            if (off >= 0.7 * best) return;
+            best = off, moved = true;
+            mesh_.position_world[v] = vertex.target_world = point.place_world;
+            vertex.rank = static_cast<std::uint8_t>(point.rank);
+        };
+        attempt(now);
+        if (sharp_count > 0) attempt(sharp / static_cast<double>(sharp_count));
+        attempt(vertex.middle_world);
+        return moved;
+    }
+
+    /// Where the surface passes a face twice between the same two vertices, the two sides get vertices of
+    /// their own between them: else four triangles would have one edge.
+    void partTwins(std::uint32_t p) {
+        const DualPolygon& polygon = complex_.polygons[p];
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t a = polygon.vertex[k], b = polygon.vertex[(k + 1) % 4];
+            const DualCell &one = *complex_.find(lattice_, polygonCell(polygon, k)),
+                           &other = *complex_.find(lattice_, polygonCell(polygon, (k + 1) % 4));
+            if (crossingsOf(one, polygonFace(polygon, k), a) == 4 &&
+                crossingsOf(other, polygonFace(polygon, k) ^ 1, b) == 4)
+                addMiddle(p, k);
+        }
+    }
+    static int crossingsOf(const DualCell& cell, int face, std::uint32_t vertex) {
+        int count = 0;
+        for (int edge = 0; edge < kCellEdges; ++edge) {
+            const EdgeEnds ends = edgeEnds(edge);
+            const int bit = 1 << face / 2, at = (face & 1) << face / 2;
+            count += cell.loops.loop[edge] >= 0 && cell.vertexOf(edge) == vertex && (ends.low & bit) == at &&
+                     (ends.high & bit) == at;
+        }
+        return count;
+    }
+
+    /// A vertex on the face between two of a polygon's cells, for it and for its neighbour there.
+    void addMiddle(std::uint32_t p, int k) {
+        if (middles_[p][k] != kNoVertex) return;
+        const DualPolygon& polygon = complex_.polygons[p];
+        const std::uint32_t q = polygon.across[k];
+        const DualPolygon& other = complex_.polygons[q];
+        const auto middle = static_cast<std::uint32_t>(mesh_.position_world.size());
+        mesh_.position_world.push_back(0.5 * (polygon.crossing.point + other.crossing.point));
+        middles_[p][k] = middle;
+        for (int j = 0; j < 4; ++j)
+            if (other.across[j] == p && sameSide(polygon, k, other, j)) middles_[q][j] = middle;
+    }
+    static bool sameSide(const DualPolygon& a, int k, const DualPolygon& b, int j) {
+        const glm::ivec3 a0 = polygonCell(a, k), a1 = polygonCell(a, (k + 1) % 4), b0 = polygonCell(b, j),
+                         b1 = polygonCell(b, (j + 1) % 4);
+        return (a0 == b0 && a1 == b1) || (a0 == b1 && a1 == b0);
+    }
+
+    bool hasMiddle(std::uint32_t p) const {
+        return std::any_of(middles_[p].begin(), middles_[p].end(),
+                           [](std::uint32_t m) { return m != kNoVertex; });
+    }
+
+    void triangulate() {
+        mesh_.triangles.clear(), owner_.clear(), doubtful_.clear();
+        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p)
+            divided_[p] || hasMiddle(p) ? addFan(p) : addPair(p);
+    }
+
+    void add(std::uint32_t p, std::uint32_t a, std::uint32_t b, std::uint32_t c, bool doubt) {
+        if (!complex_.polygons[p].outward) std::swap(b, c);
+        mesh_.triangles.push_back({a, b, c});
+        owner_.push_back(p), doubtful_.push_back(doubt);
+    }
+
+    void addFan(std::uint32_t p) {
+        const DualPolygon& polygon = complex_.polygons[p];
+        const auto hub = hub_.try_emplace(p, static_cast<std::uint32_t>(mesh_.position_world.size()));
+        if (hub.second) mesh_.position_world.push_back(polygon.crossing.point);
+        const std::uint32_t centre = hub.first->second;
+        const bool plain = plainCells(polygon);
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t a = polygon.vertex[k], b = polygon.vertex[(k + 1) % 4], m = middles_[p][k];
+            if (m == kNoVertex)
+                add(p, centre, a, b, !plain || !throughFace(polygon, k));
+            else
+                add(p, centre, a, m, !plain), add(p, centre, m, b, !plain);
+        }
+    }
+
+    /// All vertices in cells of one loop, and there.
+    bool plainCells(const DualPolygon& polygon) const {
+        for (const std::uint32_t v : polygon.vertex) {
+            const DualVertex& vertex = complex_.vertices[v];
+            if (vertex.loops > 1 || !inOwnCell(vertex, mesh_.position_world[v])) return false;
+        }
+        return true;
+    }
+
+    /// Whether the side's line passes the face between its cells: Ju and Udeshi 2006's first condition.
+    bool throughFace(const DualPolygon& polygon, int k) const {
+        const glm::dvec3 &a = mesh_.position_world[polygon.vertex[k]],
+                         &b = mesh_.position_world[polygon.vertex[(k + 1) % 4]];
+        const int axis = polygonFace(polygon, k) / 2, other = 3 - axis - polygon.axis;
+        const double plane = lattice_.coordinate(axis, polygon.corner[axis]), run = b[axis] - a[axis];
+        if (run == 0.0) return false;
+        const glm::dvec3 at = a + (plane - a[axis]) / run * (b - a);
+        const glm::ivec3 cell = polygonCell(polygon, k);
+        for (const int i : {int(polygon.axis), other})
+            if (at[i] < lattice_.coordinate(i, cell[i]) || at[i] > lattice_.coordinate(i, cell[i] + 1))
+                return false;
+        return true;
+    }
+
+    /// Whether both triangles stay within the polygon's envelope, the tetrahedra of its edge and its sides:
+    /// for the diagonal from vertex `d`. The edge passes one of them, and the diagonal the triangle of the
+    /// edge and the fourth vertex.
+    bool aroundEdge(const DualPolygon& polygon, int d) const {
+        const int u = (polygon.axis + 1) % 3, v = (polygon.axis + 2) % 3;
+        const glm::dvec3 edge = lattice_.corner(polygon.corner);
+        glm::dvec3 x[4];
+        for (int k = 0; k < 4; ++k) x[k] = mesh_.position_world[polygon.vertex[(d + k) % 4]] - edge;
+        const auto turn = [&](int i, int j) { return x[i][u] * x[j][v] - x[i][v] * x[j][u]; };
+        const auto passed = [&](int i, int j, int k) {
+            const double a = turn(j, k), b = turn(k, i), c = turn(i, j), sum = a + b + c;
+            if (!(a >= 0.0 && b >= 0.0 && c >= 0.0 && sum > 0.0)) return false;
+            const double height =
+                (a * x[i][polygon.axis] + b * x[j][polygon.axis] + c * x[k][polygon.axis]) / sum;
+            return height >= 0.0 && height <= lattice_.step;
+        };
+        // Where the line from vertex 0 to 2 passes the edge's half-plane towards vertex j.
+        const auto withinSide = [&](int j) {
+            const double a = turn(0, j), b = turn(2, j), part = a / (a - b);
+            if (!(a * b < 0.0)) return false;
+            const glm::dvec3 at = x[0] + part * (x[2] - x[0]);
+            const double along =
+                (at[u] * x[j][u] + at[v] * x[j][v]) / (x[j][u] * x[j][u] + x[j][v] * x[j][v]);
+            const double height = at[polygon.axis] - along * x[j][polygon.axis];
+            return along >= 0.0 && along <= 1.0 && height >= 0.0 && height <= (1.0 - along) * lattice_.step;
+        };
+        return (passed(0, 1, 2) && withinSide(3)) || (passed(0, 2, 3) && withinSide(1));
+    }
+
+    double offAlong(const DualPolygon& polygon, int d) const {
+        const glm::dvec3 middle =
+            0.5 * (mesh_.position_world[polygon.vertex[d]] + mesh_.position_world[polygon.vertex[d + 2]]);
+        return std::abs(valueAt(tapeOf(polygon.brick), middle));
+    }
+
+    /// The diagonal nearer to the surface; of two as near, the shorter one.
+    std::uint8_t betterDiagonal(const DualPolygon& polygon) const {
+        const double first = offAlong(polygon, 0), second = offAlong(polygon, 1);
+        if (std::abs(first - second) > 1e-9 * lattice_.step) return second < first;
+        const auto length = [&](int d) {
+            return glm::distance(mesh_.position_world[polygon.vertex[d]],
+                                 mesh_.position_world[polygon.vertex[d + 2]]);
+        };
+        return length(1) < length(0);
+    }
+
+    void addPair(std::uint32_t p) {
+        const DualPolygon& polygon = complex_.polygons[p];
+        if (diagonal_[p] == 0xff) diagonal_[p] = betterDiagonal(polygon);
+        const int d = diagonal_[p];
+        bool doubt = !plainCells(polygon) || !aroundEdge(polygon, d);
+        for (int k = 0; k < 4; ++k) doubt |= !throughFace(polygon, k);
+        const auto at = [&](int k) { return polygon.vertex[(d + k) % 4]; };
+        add(p, at(0), at(1), at(2), doubt), add(p, at(0), at(2), at(3), doubt);
+    }
+
+    /// Looks for triangles that meet, and takes more care of their polygons. False: there are none.
+    bool mend() {
+        const auto pairs =
+            meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_, 1.5 * lattice_.step);
+        if (pairs.empty()) return false;
+        std::vector<std::uint32_t> polygons;
+        for (const auto& [a, b] : pairs) polygons.push_back(owner_[a]), polygons.push_back(owner_[b]);
+        std::sort(polygons.begin(), polygons.end());
+        polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+        counts_.mended += polygons.size();
+        std::vector<std::uint32_t> moved;
+        for (const std::uint32_t p : polygons) takeCare(p, moved);
+        std::sort(moved.begin(), moved.end());
+        moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+        for (const std::uint32_t v : moved) move(v);
+        return true;
+    }
+
+    void takeCare(std::uint32_t p, std::vector<std::uint32_t>& moved) {
+        const DualPolygon& polygon = complex_.polygons[p];
+        if (!turned_[p] && !divided_[p] && !hasMiddle(p)) {
+            turned_[p] = true;
+            const auto other = static_cast<std::uint8_t>(1 - diagonal_[p]);
+            if (plainCells(polygon) && aroundEdge(polygon, other) && !aroundEdge(polygon, 1 - other)) {
+                diagonal_[p] = other;
+                return;
+            }
+        }
+        for (const std::uint32_t v : polygon.vertex) moved.push_back(v);
+        bool all_middle = true;
+        for (const std::uint32_t v : polygon.vertex) all_middle &= care_[v] >= kMiddle;
+        if (!all_middle) return;
+        divided_[p] = true;
+        for (int k = 0; k < 4; ++k) addMiddle(p, k);
+    }
+
+    void move(std::uint32_t v) {
+        const DualVertex& vertex = complex_.vertices[v];
+        glm::dvec3& place = mesh_.position_world[v];
+        if (care_[v] < kDivided) care_[v] = static_cast<std::uint8_t>(care_[v] + 1);
+        if (care_[v] == kInCell && inOwnCell(vertex, place)) care_[v] = kHalfway;
+        if (care_[v] == kInCell) place = heldOnSurface(vertex);
+        if (care_[v] == kHalfway)
+            place = 0.5 * (heldInCell(vertex, vertex.target_world) + vertex.middle_world);
+        if (care_[v] >= kMiddle) place = vertex.middle_world;
+    }
+
+    const MeshRequest& request_;
+    const Lattice& lattice_;
+    MeshCounts& counts_;
+    DualComplex complex_;
+    SurfaceMesh mesh_;
+    std::vector<std::uint32_t> first_, around_;  ///< the polygons of each vertex
+    std::vector<std::uint8_t> care_, diagonal_;
+    std::vector<bool> divided_, turned_, doubtful_;
+    std::vector<std::array<std::uint32_t, 4>> middles_;
+    std::map<std::uint32_t, std::uint32_t> hub_;  ///< of divided polygons
+    std::vector<std::uint32_t> owner_;            ///< a triangle's polygon
+};
+
+}  // namespace
+
+SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
+    return DualContouring(request, counts).run();
+}
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,160 @@
+#include "sdf/mesh_crossings.h"
+
+#include <cmath>
+
+#include "sdf/evaluate.h"
+
+namespace edgewise::sdf {
+namespace {
+
+constexpr int kMostRootSteps = 100;
+/// Of an edge: where the root is looked for no more.
+constexpr double kRootWidth = 1e-13;
+
+/// Brackets of roots along edges, one a lane: secants by the Illinois rule, halved where that is slow.
+struct Roots {
+    struct Lane {
+        double low, high, at_low, at_high;  ///< coordinates along the axis, and values there
+        double root, width;
+        bool done = true;
+        int slow = 0, side = 0;
+    };
+    std::array<Lane, kPointLanes> lane;
+
+    void begin(Lane& l, double low, double high, double at_low, double at_high, double step) {
+        l = {low, high, at_low, at_high, low, kRootWidth * step, false, 0, 0};
+        if (at_low == 0.0) l.root = low, l.done = true;
+        if (at_high == 0.0) l.root = high, l.done = true;
+    }
+    static double guess(const Lane& l) {
+        if (l.slow >= 3) return 0.5 * (l.low + l.high);
+        const double x = l.low - l.at_low * (l.high - l.low) / (l.at_high - l.at_low);
+        return std::min(std::max(x, l.low), l.high);
+    }
+    static void take(Lane& l, double x, double value, bool inside_low) {
+        const double before = l.root, width = l.high - l.low;
+        l.root = x;
+        const bool to_low = (value < 0.0) == inside_low;
+        if (to_low) {
+            l.low = x, l.at_low = value;
+            if (l.side == 1) l.at_high *= 0.5;
+        } else {
+            l.high = x, l.at_high = value;
+            if (l.side == -1) l.at_low *= 0.5;
+        }
+        l.side = to_low ? 1 : -1;
+        l.slow = l.high - l.low > 0.5 * width && l.slow < 3 ? l.slow + 1 : 0;
+        l.done = value == 0.0 || l.high - l.low <= l.width || std::abs(x - before) <= l.width;
+    }
+};
+
+}  // namespace
+
+void BrickCrossings::read(const Lattice& lattice, const Brick& brick) {
+    readValues(lattice, brick);
+    findCrossings(lattice, brick);
+}
+
+void BrickCrossings::readValues(const Lattice& lattice, const Brick& brick) {
+    LanePoints points;
+    double values[kPointLanes];
+    for (int begin = 0; begin < kCorners; begin += kPointLanes) {
+        for (int lane = 0; lane < kPointLanes; ++lane) {
+            const int n = std::min(begin + lane, kCorners - 1);
+            const glm::dvec3 p =
+                lattice.corner(brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide)));
+            for (int axis = 0; axis < 3; ++axis) points.axis[axis][lane] = p[axis];
+        }
+        laneValues(brick.tape, points, values);
+        for (int lane = 0; lane < kPointLanes && begin + lane < kCorners; ++lane)
+            values_[begin + lane] = values[lane];
+    }
+}
+
+void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
+    crossings_.clear();
+    for (auto& axis : at_) axis.fill(-1);
+    struct Edge {
+        glm::ivec3 corner;
+        int axis;
+    };
+    std::array<Edge, kPointLanes> edges;
+    int waiting = 0;
+    LanePoints points{};
+    Roots roots;
+    const auto solve = [&] {
+        for (int lane = 0; lane < kPointLanes; ++lane) {
+            const Edge& e = edges[std::min(lane, waiting - 1)];
+            const glm::dvec3 p = lattice.corner(brick.first + e.corner);
+            for (int axis = 0; axis < 3; ++axis) points.axis[axis][lane] = p[axis];
+            if (lane >= waiting) {
+                roots.lane[lane].done = true;
+                continue;
+            }
+            glm::ivec3 end = e.corner;
+            ++end[e.axis];
+            roots.begin(roots.lane[lane], p[e.axis],
+                        lattice.coordinate(e.axis, brick.first[e.axis] + end[e.axis]), value(e.corner),
+                        value(end), lattice.step);
+        }
+        double values[kPointLanes];
+        for (int step = 0; step < kMostRootSteps; ++step) {
+            bool all_done = true;
+            for (int lane = 0; lane < waiting; ++lane) {
+                if (roots.lane[lane].done) continue;
+                all_done = false;
+                points.axis[edges[lane].axis][lane] = Roots::guess(roots.lane[lane]);
+            }
+            if (all_done) break;
+            laneValues(brick.tape, points, values);
+            for (int lane = 0; lane < waiting; ++lane)
+                if (!roots.lane[lane].done)
+                    Roots::take(roots.lane[lane], points.axis[edges[lane].axis][lane], values[lane],
+                                value(edges[lane].corner) < 0.0);
+        }
+        for (int lane = 0; lane < waiting; ++lane) {
+            const Edge& e = edges[lane];
+            glm::dvec3 p = lattice.corner(brick.first + e.corner);
+            p[e.axis] = roots.lane[lane].root;
+            const glm::dvec3 gradient = gradientAt(brick.tape, p).gradient;
+            const double length = glm::length(gradient);
+            glm::dvec3 normal(0.0);
+            normal[e.axis] = value(e.corner) < 0.0 ? 1.0 : -1.0;
+            if (length > 0.0 && std::isfinite(length)) normal = gradient / length;
+            at_[e.axis][indexOf(e.corner)] = static_cast<int>(crossings_.size());
+            crossings_.push_back({p, normal});
+        }
+        waiting = 0;
+    };
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                for (int axis = 0; axis < 3; ++axis) {
+                    const glm::ivec3 corner(x, y, z);
+                    if (corner[axis] == kBrickCells) continue;
+                    glm::ivec3 end = corner;
+                    ++end[axis];
+                    if ((value(corner) < 0.0) == (value(end) < 0.0)) continue;
+                    edges[waiting++] = {corner, axis};
+                    if (waiting == kPointLanes) solve();
+                }
+    if (waiting > 0) solve();
+}
+
+bool BrickCrossings::open(const Lattice& lattice, const Brick& brick) const {
+    for (int n = 0; n < kCorners; ++n) {
+        const glm::ivec3 at = brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
+        const bool end = at.x == 0 || at.y == 0 || at.z == 0 || at.x == lattice.cells.x ||
+                         at.y == lattice.cells.y || at.z == lattice.cells.z;
+        if (end && values_[n] < 0.0) return true;
+    }
+    return false;
+}
+
+bool BrickCrossings::crosses(const glm::ivec3& cell) const {
+    int inside = 0;
+    for (int c = 0; c < kCellCorners; ++c) inside += value(cell + cornerOffset(c)) < 0.0;
+    return inside != 0 && inside != kCellCorners;
+}
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,70 @@
+#include "sdf/mesh_feature.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sdf/evaluate.h"
+
+namespace edgewise::sdf {
+namespace {
+
+/// Of eigenvalues: normals of two sides that differ by 12 degrees have 0.011.
+constexpr double kCutoff = 0.01;
+constexpr int kRefinements = 3, kNewtonSteps = 4;
+constexpr double kNearer = 0.1;
+/// Of a cell's side: planes meet exactly; a point is on the surface.
+constexpr double kMeet = 1e-10, kOnSurface = 1e-4;
+
+TangentPlane tangentPlane(const TapeView& tape, glm::dvec3 p, const glm::dvec3& other_normal) {
+    glm::dvec3 normal = other_normal;
+    for (int step = 0; step < 2; ++step) {
+        const ValueAndGradient at = gradientAt(tape, p);
+        const double slope2 = glm::dot(at.gradient, at.gradient);
+        if (!(slope2 > 0.0) || !std::isfinite(slope2)) break;
+        normal = at.gradient / std::sqrt(slope2);
+        p -= at.gradient * (at.value / slope2);
+    }
+    return {p, normal};
+}
+
+}  // namespace
+
+glm::dvec3 onSurface(const TapeView& tape, const glm::dvec3& from) {
+    glm::dvec3 p = from;
+    for (int step = 0; step < kNewtonSteps; ++step) {
+        const ValueAndGradient at = gradientAt(tape, p);
+        const double slope2 = glm::dot(at.gradient, at.gradient);
+        if (!(slope2 > 0.0) || !std::isfinite(slope2) || at.value == 0.0) break;
+        const glm::dvec3 move = at.gradient * (at.value / slope2);
+        p -= move;
+        if (glm::dot(move, move) < 1e-28 * glm::dot(p, p)) break;
+    }
+    return p;
+}
+
+FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> given, const glm::dvec3& about,
+                          double step) {
+    std::array<TangentPlane, kMostPlanes> planes;
+    std::copy(given.begin(), given.end(), planes.begin());
+    const auto smooth = [&] { return FeaturePoint{onSurface(tape, about), 1}; };
+    const std::span<const TangentPlane> own(planes.data(), given.size());
+    PlanesPoint found = nearestToPlanes(own, about, kCutoff);
+    for (int n = 0;; ++n) {
+        if (found.rank < 2 || glm::distance(found.place, about) > 2.0 * step) return smooth();
+        const double off = std::abs(valueAt(tape, found.place));
+        if (found.residual <= kMeet * step && off <= kMeet * step) break;
+        if (n == kRefinements) {
+            if (off > kOnSurface * step) return smooth();
+            break;
+        }
+        for (std::size_t i = 0; i < given.size(); ++i)
+            planes[i] =
+                tangentPlane(tape, found.place + kNearer * (planes[i].point - found.place), planes[i].normal);
+        found = nearestToPlanes(own, found.place, kCutoff);
+    }
+    return {found.place, found.rank};
+}
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,202 @@
+#include "sdf/mesh_refine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sdf/evaluate.h"
+#include "sdf/mesh_embedding.h"
+#include "sdf/mesh_feature.h"
+
+namespace edgewise::sdf {
+namespace {
+
+constexpr int kRounds = 8, kRetreats = 12;
+/// A new vertex is worth it when what is off becomes less than this part.
+constexpr double kGain = 0.8;
+/// Of an edge's length: from its middle to where it is divided.
+constexpr double kFarthest = 1.0;
+
+struct Candidate {
+    std::uint32_t a, b;
+    double off;
+};
+struct Added {
+    std::uint32_t vertex;
+    glm::dvec3 middle;
+    int retreats = 0;
+};
+
+class Refiner {
+  public:
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits)
+        : mesh_(mesh),
+          tape_(tape),
+          step_(step),
+          limits_(limits),
+          around_(mesh.position_world.size()),
+          stuck_(mesh.position_world.size(), false) {
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+            for (const std::uint32_t v : mesh.triangles[t]) around_[v].push_back(t);
+    }
+
+    std::size_t run() {
+        std::vector<std::uint32_t> active(mesh_.triangles.size());
+        for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
+        std::size_t all = 0;
+        for (int round = 0; round < kRounds && !active.empty(); ++round) {
+            touched_.assign(mesh_.triangles.size(), false);
+            added_.clear();
+            std::vector<std::uint32_t> later;
+            for (const Candidate& c : candidatesOf(active)) divide(c, later);
+            all += added_.size();
+            if (added_.empty()) break;
+            retreat();
+            active = std::move(later);
+            for (std::uint32_t t = 0; t < touched_.size(); ++t)
+                if (touched_[t]) active.push_back(t);
+            std::sort(active.begin(), active.end());
+            active.erase(std::unique(active.begin(), active.end()), active.end());
+        }
+        return all;
+    }
+
+  private:
+    const glm::dvec3& at(std::uint32_t v) const { return mesh_.position_world[v]; }
+    double offBetween(const glm::dvec3& a, const glm::dvec3& b) const {
+        const glm::dvec3 middle = 0.5 * (a + b);
+        return std::abs(valueAt(tape_(middle), middle));
+    }
+
+    std::vector<Candidate> candidatesOf(const std::vector<std::uint32_t>& triangles) const {
+        std::vector<Candidate> found;
+        for (const std::uint32_t t : triangles)
+            for (int i = 0; i < 3; ++i) {
+                std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
+                if (stuck_[a] || stuck_[b]) continue;
+                if (a > b) std::swap(a, b);
+                const double off = offBetween(at(a), at(b));
+                if (off > std::min(limits_.sharp, limits_.smooth)) found.push_back({a, b, off});
+            }
+        std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
+            return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
+        });
+        const auto same = [](const Candidate& x, const Candidate& y) { return x.a == y.a && x.b == y.b; };
+        found.erase(std::unique(found.begin(), found.end(), same), found.end());
+        return found;
+    }
+
+    static std::uint32_t third(const Triangle& t, std::uint32_t a, std::uint32_t b) {
+        return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
+    }
+
+    void divide(const Candidate& c, std::vector<std::uint32_t>& later) {
+        std::array<std::uint32_t, 2> sides{};
+        std::size_t count = 0;
+        for (const std::uint32_t t : around_[c.a])
+            if (std::find(around_[c.b].begin(), around_[c.b].end(), t) != around_[c.b].end() && count < 2)
+                sides[count++] = t;
+        if (count != 2) return;
+        if (touched_[sides[0]] || touched_[sides[1]]) {
+            later.insert(later.end(), sides.begin(), sides.end());
+            return;
+        }
+        const std::array<std::uint32_t, 2> tips{third(mesh_.triangles[sides[0]], c.a, c.b),
+                                                third(mesh_.triangles[sides[1]], c.a, c.b)};
+        glm::dvec3 place;
+        if (!placeFor(c, tips, place)) return;
+        const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
+        mesh_.position_world.push_back(place);
+        around_.emplace_back(), stuck_.push_back(false);
+        added_.push_back({v, 0.5 * (at(c.a) + at(c.b))});
+        for (int i = 0; i < 2; ++i) splitTriangle(sides[i], c.a, c.b, tips[i], v);
+    }
+
+    /// The half at b becomes a triangle of its own.
+    void splitTriangle(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t tip,
+                       std::uint32_t v) {
+        const auto half = static_cast<std::uint32_t>(mesh_.triangles.size());
+        Triangle other = mesh_.triangles[t];
+        std::replace(other.begin(), other.end(), a, v);
+        mesh_.triangles.push_back(other);
+        std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), b, v);
+        std::replace(around_[b].begin(), around_[b].end(), t, half);
+        around_[tip].push_back(half);
+        around_[v].push_back(t), around_[v].push_back(half);
+        touched_[t] = true, touched_.push_back(true);
+    }
+
+    bool placeFor(const Candidate& c, const std::array<std::uint32_t, 2>& tips, glm::dvec3& place) const {
+        const glm::dvec3 &a = at(c.a), &b = at(c.b), middle = 0.5 * (a + b);
+        const TapeView tape = tape_(middle);
+        double best = kGain * c.off;
+        bool found = false;
+        const auto attempt = [&](const glm::dvec3& p) {
+            if (glm::distance(p, middle) > kFarthest * glm::distance(a, b)) return;
+            const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
+            if (off < best) best = off, place = p, found = true;
+        };
+        const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
+        bool sharp = false;
+        // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
+        for (const auto& [count, parts] :
+             {std::pair{4, std::array{0.25, 0.6}}, std::pair{2, std::array{0.8, 0.97}}}) {
+            std::vector<TangentPlane> planes;
+            for (int end = 0; end < count; ++end)
+                for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
+            if (planes.empty()) continue;
+            const FeaturePoint point = featurePoint(tape, planes, middle, step_);
+            if (point.rank < 2) continue;
+            sharp = true;
+            attempt(point.place_world);
+        }
+        if (!sharp && c.off > limits_.smooth) attempt(onSurface(tape, middle));
+        return found;
+    }
+    static void addPlane(const TapeView& tape, const glm::dvec3& near, std::vector<TangentPlane>& planes) {
+        const glm::dvec3 p = onSurface(tape, near), gradient = gradientAt(tape, p).gradient;
+        const double length = glm::length(gradient);
+        if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
+    }
+
+    /// New vertices whose triangles meet others go back to where they change nothing.
+    void retreat() {
+        for (int n = 0; n < kRetreats; ++n) {
+            const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_, 1.5 * step_);
+            if (pairs.empty()) return;
+            std::vector<std::uint32_t> back;
+            const std::uint32_t first = added_.front().vertex;
+            for (const auto& [s, t] : pairs)
+                for (const std::uint32_t triangle : {s, t})
+                    for (const std::uint32_t v : mesh_.triangles[triangle])
+                        if (v >= first) back.push_back(v - first);
+            std::sort(back.begin(), back.end());
+            back.erase(std::unique(back.begin(), back.end()), back.end());
+            for (const std::uint32_t i : back) {
+                Added& added = added_[i];
+                glm::dvec3& place = mesh_.position_world[added.vertex];
+                stuck_[added.vertex] = true;
+                place = ++added.retreats == 1 ? 0.5 * (place + added.middle) : added.middle;
+            }
+        }
+    }
+
+    SurfaceMesh& mesh_;
+    const TapeAt& tape_;
+    const double step_;
+    const RefineLimits limits_;
+    std::vector<std::vector<std::uint32_t>> around_;
+    std::vector<bool> stuck_,
+        touched_;  ///< triangles of this round; vertices that could not go where they belong
+    std::vector<Added> added_;
+};
+
+}  // namespace
+
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits) {
+    mesh.material.clear(), mesh.normal_world.clear();
+    return Refiner(mesh, tape, step, limits).run();
+}
+
+}  // namespace edgewise::sdf

@@ -1,0 +1,34 @@
+// Meshes of the surface where a tape's value is 0.
+#pragma once
+
+#include "sdf/mesh_lattice.h"
+#include "sdf/surface_mesh.h"
+
+namespace edgewise::sdf {
+
+struct MeshRequest {
+    const Tape& tape;
+    Lattice lattice;
+    /// Values change no faster than the tape says (check_lipschitz); false: intervals find the surface.
+    bool bound_holds = true;
+    bool attributes = true;  ///< normals too
+};
+
+struct MeshCounts {
+    std::uint64_t nodes = 0, pruned = 0;  ///< of the octree
+    std::uint64_t bricks = 0, cells = 0;  ///< that the surface passes
+    std::uint64_t mended = 0;             ///< vertices moved, polygons divided: against intersections
+    std::uint64_t collapsed = 0;          ///< vertices of flat parts left out
+    std::uint64_t added = 0;              ///< vertices where edges were off the surface
+};
+
+/// Marching cubes (Lorensen and Cline 1987), loops instead of a table: faces with two ways to go are decided
+/// by their values alone, so that the mesh is closed and manifold. Throws SceneError where the surface
+/// reaches the lattice's end.
+SurfaceMesh marchingCubes(const MeshRequest& request, MeshCounts& counts);
+
+/// Dual contouring (Ju et al. 2002) with a vertex a loop, so that the mesh is manifold; sharp edges and
+/// corners are kept.
+SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts);
+
+}  // namespace edgewise::sdf

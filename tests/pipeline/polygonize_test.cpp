@@ -1,0 +1,271 @@
+// Meshes of SDF scenes: closed, manifold, nowhere through themselves, and where the surface is.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+#include <random>
+
+#include "pipeline/error.h"
+#include "pipeline/judge/mesh_quality.h"
+#include "pipeline/load_gltf.h"
+#include "pipeline/polygonize.h"
+#include "pipeline/write_mesh.h"
+#include "sdf/dual_cells.h"
+#include "sdf/field_scene.h"
+#include "sdf/mesh_embedding.h"
+#include "sdf/mesh_qef.h"
+
+namespace edgewise {
+namespace {
+
+using sdf::Kind;
+
+Scene sceneOf(sdf::Tree tree) {
+    auto field = std::make_shared<sdf::FieldScene>();
+    field->tree = std::move(tree);
+    field->materials.resize(1);
+    Scene scene;
+    scene.source = "test";
+    scene.field = std::move(field);
+    return scene;
+}
+sdf::Tree shape(Kind kind, std::vector<double> numbers) {
+    sdf::Tree tree;
+    tree.root = tree.add(kind, std::move(numbers));
+    return tree;
+}
+/// A ball without a turned box.
+sdf::Tree ballMinusBox() {
+    sdf::Tree tree;
+    const auto ball = tree.add(Kind::kSphere, {1.0}), box = tree.add(Kind::kBox, {1.3, 1.3, 1.3});
+    const auto turned = tree.add(Kind::kRotate, {1.0, 2.0, 0.5, 38.0}, {box});
+    const auto moved = tree.add(Kind::kTranslate, {0.55, 0.5, 0.6}, {turned});
+    tree.root = tree.add(Kind::kDifference, {}, {ball, moved});
+    return tree;
+}
+sdf::Tree gyroidShell() {
+    sdf::Tree tree;
+    const auto ball = tree.add(Kind::kSphere, {1.0}), gyroid = tree.add(Kind::kGyroid, {0.62, 0.07});
+    tree.root = tree.add(Kind::kIntersection, {}, {ball, gyroid});
+    return tree;
+}
+sdf::Tree blobs(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> place(-0.8, 0.8), radius(0.15, 0.3);
+    sdf::Tree tree;
+    std::vector<std::uint32_t> balls;
+    for (int n = 0; n < 12; ++n) {
+        const auto ball = tree.add(Kind::kSphere, {radius(random)});
+        balls.push_back(tree.add(Kind::kTranslate, {place(random), place(random), place(random)}, {ball}));
+    }
+    tree.root = tree.add(Kind::kSmoothUnion, {0.1}, balls);
+    return tree;
+}
+
+Polygonized meshOf(const sdf::Tree& tree, Mesher mesher, int resolution) {
+    PolygonizeOptions options;
+    options.mesher = mesher, options.resolution = resolution;
+    return polygonize(sceneOf(tree), options);
+}
+MeshDistance farthest(const Polygonized& made, const sdf::Tree& tree) {
+    return distanceOf(made.mesh, sdf::lower(tree), made.lattice, true, 4).value_or(MeshDistance{});
+}
+
+/// Of every mesh that either mesher makes.
+void expectClean(const Polygonized& made, const std::string& what) {
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_TRUE(quality.closed()) << what;
+    EXPECT_TRUE(quality.manifold()) << what << ": " << quality.nonmanifold_edges << " edges, "
+                                    << quality.nonmanifold_vertices << " vertices";
+    EXPECT_GT(quality.volume, 0.0) << what << ": turned inside out";
+    EXPECT_EQ(selfIntersections(made.mesh).value_or(0), 0u) << what;
+}
+
+TEST(Polygonize, MeshesHaveTheShapesOwnEulerNumber) {
+    const struct {
+        const char* name;
+        sdf::Tree tree;
+        std::int64_t euler;
+        double volume;
+    } cases[] = {
+        {"sphere", shape(Kind::kSphere, {1.0}), 2, 4.0 / 3.0 * glm::pi<double>()},
+        {"torus", shape(Kind::kTorus, {1.0, 0.3}), 0, 2.0 * glm::pi<double>() * glm::pi<double>() * 0.09},
+        // Menger's sponge of one level: a cube's surface with five handles.
+        {"menger", shape(Kind::kMenger, {2.0, 1.0}), -8, 8.0 * 20.0 / 27.0},
+        {"shell",
+         [] {
+             sdf::Tree tree;
+             tree.root = tree.add(Kind::kShell, {0.3}, {tree.add(Kind::kSphere, {1.0})});
+             return tree;
+         }(),
+         4, 4.0 / 3.0 * glm::pi<double>() * (1.15 * 1.15 * 1.15 - 0.85 * 0.85 * 0.85)},
+    };
+    for (const auto& c : cases)
+        for (const Mesher mesher : {Mesher::kMarchingCubes, Mesher::kDual}) {
+            const Polygonized made = meshOf(c.tree, mesher, 24);
+            expectClean(made, c.name);
+            const MeshQuality quality = qualityOf(made.mesh);
+            EXPECT_EQ(quality.euler, c.euler) << c.name;
+            // Chords lie within the surface by about cell^2 / (8 R), cut edges of marching cubes by a cell:
+            // far less than a cell all over the surface.
+            EXPECT_NEAR(quality.volume, c.volume, 0.5 * quality.area * made.lattice.step) << c.name;
+        }
+}
+
+TEST(Polygonize, DualFindsFlatShapesExactlyAndLeavesOutWhatTheyDoNotNeed) {
+    const sdf::Tree box = shape(Kind::kBox, {1.3, 0.9, 1.7});
+    const Polygonized made = meshOf(box, Mesher::kDual, 24);
+    expectClean(made, "box");
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_EQ(quality.triangles, 12u);
+    EXPECT_EQ(quality.vertices, 8u);
+    EXPECT_GT(made.counts.collapsed, 1000u);
+    // Positions about 1, and planes met to 1e-10 of a cell.
+    EXPECT_NEAR(quality.volume, 1.3 * 0.9 * 1.7, 1e-9);
+    const sdf::Tree sponge = shape(Kind::kMenger, {2.0, 2.0});
+    const Polygonized holes = meshOf(sponge, Mesher::kDual, 48);
+    expectClean(holes, "sponge");
+    EXPECT_NEAR(qualityOf(holes.mesh).volume, 8.0 * 400.0 / 729.0, 1e-9);
+    EXPECT_LE(farthest(holes, sponge).surface_to_mesh, 1e-9);
+    EXPECT_LE(farthest(holes, sponge).mesh_to_surface, 1e-9);
+}
+
+TEST(Polygonize, HardFieldsAreManifoldAndNowhereThroughThemselves) {
+    std::uint64_t mended = 0, doubled = 0;
+    for (const int resolution : {20, 33, 40}) {
+        for (const Mesher mesher : {Mesher::kMarchingCubes, Mesher::kDual}) {
+            const Polygonized made = meshOf(gyroidShell(), mesher, resolution);
+            expectClean(made, "gyroid");
+            mended += made.counts.mended;
+        }
+        expectClean(meshOf(ballMinusBox(), Mesher::kDual, resolution), "ball minus box");
+        for (std::uint64_t seed = 1; seed <= 3; ++seed)
+            expectClean(meshOf(blobs(seed), Mesher::kDual, resolution), "blobs " + std::to_string(seed));
+    }
+    const sdf::Tape tape = sdf::lower(gyroidShell());
+    for (const sdf::DualVertex& v :
+         sdf::dualComplex({tape, sdf::latticeOf(glm::dvec3(-1.02), glm::dvec3(1.02), 20)}).vertices)
+        doubled += v.loops > 1;
+    EXPECT_GT(mended, 10u);   // triangles did meet before they were mended
+    EXPECT_GT(doubled, 10u);  // cells do hold several parts of the surface
+}
+
+TEST(Polygonize, DualIsNearerThanMarchingCubesAndConverges) {
+    const sdf::Tree ball = shape(Kind::kSphere, {1.0});
+    double before = 0.0;
+    for (const int resolution : {16, 32}) {
+        const Polygonized made = meshOf(ball, Mesher::kDual, resolution);
+        const MeshDistance distance = farthest(made, ball);
+        if (distance.surface_samples == 0) GTEST_SKIP() << "this build has no CGAL";
+        // Corners on the ball, sides of at most two cells: sagitta (2 step)^2 / 8 of sides and of triangles.
+        EXPECT_LE(distance.surface_to_mesh, made.lattice.step * made.lattice.step);
+        EXPECT_LE(distance.mesh_to_surface, made.lattice.step * made.lattice.step);
+        if (before > 0.0) {
+            EXPECT_LT(distance.surface_to_mesh, 0.4 * before);
+        }
+        before = distance.surface_to_mesh;
+    }
+    const sdf::Tree cut = ballMinusBox();
+    const MeshDistance dual = farthest(meshOf(cut, Mesher::kDual, 32), cut),
+                       cubes = farthest(meshOf(cut, Mesher::kMarchingCubes, 32), cut);
+    EXPECT_LT(dual.surface_to_mesh, cubes.surface_to_mesh);
+}
+
+TEST(Polygonize, WithoutABoundIntervalsFindTheSameSurface) {
+    const sdf::Tape tape = sdf::lower(ballMinusBox());
+    const sdf::Lattice lattice = sdf::latticeOf(glm::dvec3(-1.1), glm::dvec3(1.1), 24);
+    sdf::MeshCounts counts;
+    const sdf::SurfaceMesh a = sdf::dualContouring({tape, lattice, true}, counts),
+                           b = sdf::dualContouring({tape, lattice, false}, counts);
+    EXPECT_EQ(a.triangles.size(), b.triangles.size());
+    EXPECT_DOUBLE_EQ(qualityOf(a).volume, qualityOf(b).volume);
+}
+
+TEST(Polygonize, GltfHoldsWhatWasMade) {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("edgewise_mesh_" + std::to_string(::getpid()) + ".glb");
+    const Scene scene = sceneOf(ballMinusBox());
+    PolygonizeOptions options;
+    options.resolution = 16;
+    const Polygonized made = polygonize(scene, options);
+    writeMesh(path, made.mesh, scene, "test");
+    const Scene read = loadGltf(path, {});
+    std::filesystem::remove(path);
+    EXPECT_EQ(read.triangle_count, made.mesh.triangles.size());
+    double volume = 0.0;
+    for (const Geometry& g : read.geometry) {
+        for (const auto& t : g.triangles)
+            volume +=
+                glm::dot(g.position_world[t[0]], glm::cross(g.position_world[t[1]], g.position_world[t[2]])) /
+                6.0;
+        for (const glm::dvec3& n : g.normal_world) EXPECT_GT(glm::length(n), 0.0);
+    }
+    // Each coordinate is off by at most 2^-24: the volume by the area times that times sqrt(3).
+    EXPECT_NEAR(volume, qualityOf(made.mesh).volume, qualityOf(made.mesh).area * 0x1p-24 * 2.0);
+}
+
+std::string problemOf(const sdf::Tree& tree, const PolygonizeOptions& options) {
+    try {
+        polygonize(sceneOf(tree), options);
+    } catch (const InputError& error) {
+        return error.what();
+    } catch (const FailureError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Polygonize, RefusesInOneLine) {
+    const sdf::Tree plane = shape(Kind::kPlane, {0.0, 1.0, 0.0, 0.0});
+    EXPECT_NE(problemOf(plane, {}).find("unbounded"), std::string::npos);
+    PolygonizeOptions boxed;
+    boxed.resolution = 16;
+    boxed.box = WorldBox{glm::dvec3(-1.0), glm::dvec3(1.0)};
+    EXPECT_NE(problemOf(plane, boxed).find("open"), std::string::npos);
+    boxed.box = WorldBox{glm::dvec3(3.0), glm::dvec3(4.0)};
+    EXPECT_NE(problemOf(shape(Kind::kSphere, {1.0}), boxed).find("no surface"), std::string::npos);
+    PolygonizeOptions huge;
+    huge.resolution = sdf::kMostResolution;
+    EXPECT_NE(problemOf(shape(Kind::kSphere, {1.0}), huge).find("MiB"), std::string::npos);
+    Scene none;
+    none.source = "mesh.glb";
+    EXPECT_THROW(polygonize(none, {}), InputError);
+    EXPECT_THROW(parseMesher("best"), InputError);
+}
+
+TEST(MeshEmbedding, TellsWhichTrianglesMeet) {
+    const std::vector<glm::dvec3> x{{0, 0, 0},  {1, 0, 0},       {0, 1, 0},    {0.2, 0.2, -1}, {0.2, 0.2, 1},
+                                    {5, 5, 1},  {2, 0, 0},       {1, 1, 0},    {0.1, 0.1, 0},  {0.9, 0.9, 0},
+                                    {1, -1, 0}, {0.5, 0.0, 1.0}, {0.3, 0.3, 0}};
+    const auto meet = [&](sdf::Triangle a, sdf::Triangle b) {
+        EXPECT_EQ(sdf::trianglesMeet(x, a, b), sdf::trianglesMeet(x, b, a));
+        return sdf::trianglesMeet(x, a, b);
+    };
+    EXPECT_TRUE(meet({0, 1, 2}, {3, 4, 5}));    // pierced
+    EXPECT_FALSE(meet({0, 1, 2}, {1, 7, 2}));   // a square's halves
+    EXPECT_FALSE(meet({0, 1, 2}, {1, 6, 7}));   // one corner, one plane, a side that goes on
+    EXPECT_TRUE(meet({0, 1, 2}, {0, 8, 9}));    // one corner, one plane, over each other
+    EXPECT_TRUE(meet({0, 1, 2}, {0, 1, 12}));   // folded over a side
+    EXPECT_FALSE(meet({0, 1, 2}, {0, 1, 11}));  // bent at a side
+    EXPECT_FALSE(meet({0, 1, 2}, {0, 10, 1}));  // one plane, either side
+    EXPECT_TRUE(meet({0, 1, 2}, {2, 3, 4}));    // one corner, through the face
+}
+
+TEST(MeshQef, FindsCornersEdgesAndLeavesSmoothPartsAlone) {
+    const glm::dvec3 corner(0.3, -0.2, 0.7), about(0.0);
+    const std::vector<sdf::TangentPlane> three{{corner + glm::dvec3(0, 1, 2), {1, 0, 0}},
+                                               {corner + glm::dvec3(3, 0, 1), {0, 1, 0}},
+                                               {corner + glm::dvec3(1, 1, 0), {0, 0, 1}}};
+    const sdf::PlanesPoint at_corner = sdf::nearestToPlanes(three, about, 0.01);
+    EXPECT_EQ(at_corner.rank, 3);
+    EXPECT_LE(glm::distance(at_corner.place, corner), 1e-14);
+    const sdf::PlanesPoint on_edge = sdf::nearestToPlanes(std::span(three).first(2), about, 0.01);
+    EXPECT_EQ(on_edge.rank, 2);
+    EXPECT_LE(glm::distance(on_edge.place, glm::dvec3(0.3, -0.2, 0.0)), 1e-14);
+    EXPECT_EQ(sdf::nearestToPlanes(std::span(three).first(1), about, 0.01).rank, 1);
+}
+
+}  // namespace
+}  // namespace edgewise
