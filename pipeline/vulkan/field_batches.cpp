@@ -178,21 +178,22 @@ std::vector<double> FieldBatches::depths(std::span<const sdf::TravellingRay> ray
     return depths;
 }
 
-/// A map is asked by the device alone, which finds its hits again.
 std::vector<sdf::SurfaceHit> FieldBatches::describe(std::span<const sdf::TravellingRay> rays,
                                                     std::span<const double> depths) {
-    if (scene_.glsl) return nearest(rays);
     std::vector<sdf::SurfaceHit> hits(rays.size());
     eachTile(rays.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<sdf::SurfaceHit*> met;
         for (std::size_t i = first; i < last; ++i) {
-            sdf::SurfaceHit& hit = hits[i];
-            hit.hit = std::isfinite(depths[i]);
-            if (!hit.hit) continue;
-            hit.inside = rays[i].sign < 0.0, hit.t = depths[i];
-            hit.p_world = rays[i].ray.origin_world + rays[i].ray.direction_world * hit.t;
+            if (!std::isfinite(depths[i])) continue;
+            hits[i] = surfaceAt(rays[i], depths[i]);
+            met.push_back(&hits[i]);
         }
-        describe(std::span(hits).subspan(first, last - first));
+        describeTree(met);
     });
+    if (!scene_.glsl) return hits;
+    describeMap(rays, hits);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        if (!std::isfinite(depths[i])) hits[i] = {};
     return hits;
 }
 

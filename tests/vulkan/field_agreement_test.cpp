@@ -234,6 +234,13 @@ class BothTracers : public RayBatches {
     std::vector<char> occluded(std::span<const sdf::TravellingRay> rays) override {
         return device_.occluded(rays);
     }
+    std::vector<double> depths(std::span<const sdf::TravellingRay> rays) override {
+        return device_.depths(rays);
+    }
+    std::vector<sdf::SurfaceHit> describe(std::span<const sdf::TravellingRay> rays,
+                                          std::span<const double> depths) override {
+        return device_.describe(rays, depths);
+    }
     std::size_t asked = 0, differ = 0;
 
   private:
