@@ -18,7 +18,7 @@ ConeTracingEffort effortFor(bool quick) {
     if (!quick) return effort;
     effort.scenes = {"primitives", "wires"};
     effort.width = effort.timed_width = 96, effort.height = effort.timed_height = 54, effort.runs = 1;
-    effort.reference = "ssaa:8", effort.finer = "ssaa:12";
+    effort.reference_side = 8, effort.finer_side = 12, effort.facts_side = 4;
     effort.picture_width = 96, effort.picture_height = 54;
     return effort;
 }

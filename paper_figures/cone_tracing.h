@@ -45,6 +45,7 @@ struct ConeScene {
     bool of_paper = false;  ///< one of the five that Table 1 has
     int width = 0, height = 0, timed_width = 0, timed_height = 0;
     std::map<EdgeKind, std::uint64_t> pixels;  ///< of each kind
+    EdgePsnr plain_reference;                  ///< of ssaa:K with as many samples as the reference has
     EdgePsnr reference;  ///< of the reference against a finer one, on the middle quarter of the picture
     std::vector<ConeRun> runs;  ///< the first is none
     const ConeRun& run(const std::string& method) const;
@@ -60,8 +61,8 @@ struct ConeClaim {
 struct ConeTracing {
     bool quick = false;
     int runs = 1;
-    std::string reference, finer;  ///< methods
-    double seconds = 0.0;          ///< that all of it took
+    int reference_side = 0, finer_side = 0, facts_side = 0;  ///< samples a pixel along each axis
+    double seconds = 0.0;                                    ///< that all of it took
     std::vector<ConeScene> scenes;
     std::vector<PictureRow> pictures;
 };

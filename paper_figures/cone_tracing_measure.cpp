@@ -1,19 +1,20 @@
 #include "paper_figures/cone_tracing_measure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "paper_figures/cone_tracing_pictures.h"
 #include "pipeline/error.h"
 #include "pipeline/load_scene.h"
+#include "pipeline/methods/field_frame.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
 
 namespace edgewise::figures {
 namespace {
-
-constexpr int kFactsPerSide = 4;
 
 /// What is shown of every scene, then what only the claims ask for.
 const std::vector<std::string> kMethods{"none",
@@ -100,13 +101,16 @@ void judgeMethods(ConeScene& scene, const ConeTracingEffort& effort, Progress& p
     ConeView view(scene.name, effort.width, effort.height);
     scene.width = view.film.width, scene.height = view.film.height;
     Progress quiet;
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(quiet), kFactsPerSide);
+    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(quiet), effort.facts_side);
     for (const EdgeKind kind : kinds) ++scene.pixels[kind];
-    const ImageBuffer reference = view.made(effort.reference, progress).image;
+    const ImageBuffer reference = view.reference(effort.reference_side, progress).image;
     for (ConeRun& run : scene.runs)
         run.psnr = edgePsnr(view.made(run.method, progress).image, reference, kinds, view.film.width);
+    scene.plain_reference = edgePsnr(view.made(fmt::format("ssaa:{}", effort.reference_side), progress).image,
+                                     reference, kinds, view.film.width);
     view.film.crop = middleQuarter(view.film);
-    scene.reference = edgePsnr(view.made(effort.finer, progress).image, reference, kinds, view.film.width);
+    scene.reference =
+        edgePsnr(view.reference(effort.finer_side, progress).image, reference, kinds, view.film.width);
 }
 
 ConeScene measureScene(const std::string& name, const ConeTracingEffort& effort, Progress& progress) {
@@ -140,12 +144,21 @@ MethodResult ConeView::made(const std::string& method, Progress& progress) const
     return runMethod(parseMethod(method), input(quiet));
 }
 
+MethodResult ConeView::reference(int per_side, Progress& progress) const {
+    if (progress.cancelled()) throw Interrupted();
+    FieldSettings settings;
+    settings.trace.threshold /= per_side;
+    Progress quiet;
+    return traceFiltered(input(quiet), settings, per_side, makeCpuFieldTracer);
+}
+
 ConeTracing measureConeTracing(const ConeTracingEffort& effort, Progress& progress) {
     progress.stage("scenes", 2 * effort.scenes.size() + 1);
     Stopwatch watch;
     ConeTracing found;
     found.quick = effort.quick, found.runs = effort.runs;
-    found.reference = effort.reference, found.finer = effort.finer;
+    found.reference_side = effort.reference_side, found.finer_side = effort.finer_side;
+    found.facts_side = effort.facts_side;
     for (const std::string& name : effort.scenes)
         found.scenes.push_back(measureScene(name, effort, progress));
     found.pictures = coneTracingPictures(effort, progress);

@@ -11,7 +11,8 @@ struct ConeTracingEffort {
     std::vector<std::string> scenes;
     int width = 640, height = 360;  ///< of what is judged
     int timed_width = 1280, timed_height = 720, runs = 3;
-    std::string reference = "ssaa:16", finer = "ssaa:24";
+    int reference_side = 16, finer_side = 24;  ///< samples a pixel along each axis
+    int facts_side = 8;                        ///< likewise, for the kinds of edges
     int picture_width = 320, picture_height = 180;
 };
 
@@ -26,6 +27,9 @@ struct ConeView {
     ConeView(const std::string& name, int width, int height);
     /// Throws Interrupted when cancelled.
     MethodResult made(const std::string& method, Progress& progress) const;
+    /// As ssaa:K, but rays end K times nearer to surfaces: within a pixel of a sample's size. ssaa:K itself
+    /// grows outlines by what rays of a whole pixel end before them.
+    MethodResult reference(int per_side, Progress& progress) const;
     MethodInput input(Progress& progress) const { return {scene, camera, film, filter, options, progress}; }
 };
 

@@ -35,7 +35,7 @@ std::string claimsTable(const ConeTracing& found) {
     return table("<th>claim</th><th>here</th><th>paper</th><th>aim</th><th>met</th>", rows);
 }
 
-std::string methodsTable(const ConeScene& scene) {
+std::string methodsTable(const ConeTracing& found, const ConeScene& scene) {
     std::string rows;
     for (const ConeRun& run : scene.runs) {
         rows += fmt::format("<tr><td>{}</td><td></td>", escapedHtml(run.method)) +
@@ -44,8 +44,12 @@ std::string methodsTable(const ConeScene& scene) {
                 (run.published ? number(*run.published, "{:.2f}") : "<td data-value=''></td>") +
                 decibelCells(run.psnr) + "</tr>\n";
     }
-    rows += "<tr><td>the reference itself</td><td></td><td></td><td></td><td></td>" +
-            decibelCells(scene.reference) + "</tr>\n";
+    const auto addJudge = [&](const std::string& name, const EdgePsnr& psnr) {
+        rows += fmt::format("<tr><td>{}</td><td></td><td></td><td></td><td></td>", name) +
+                decibelCells(psnr) + "</tr>\n";
+    };
+    addJudge(fmt::format("ssaa:{}", found.reference_side), scene.plain_reference);
+    addJudge("the reference itself", scene.reference);
     return table(
         "<th>method</th><th></th><th>ms</th><th>times none</th><th>paper: times none</th><th>all edges, "
         "dB</th><th>contour</th><th>internal</th><th>texture</th><th>light</th>",
@@ -75,7 +79,7 @@ std::string countsTable(const ConeTracing& found) {
 }
 
 constexpr const char* kWords =
-    "<p class='under'>Kinds of edges are what rays of a 4 x 4 lattice meet, not what colours look like. "
+    "<p class='under'>Kinds of edges are what rays of a lattice meet, not what colours look like. "
     "Contour: depth leaps from a sub-sample to the next by more than both tangent planes explain, or a "
     "surface "
     "ends. Internal: the normal turns by more than 15 degrees. Texture: another material or colour of a "
@@ -88,13 +92,20 @@ constexpr const char* kWords =
 std::string scenesHtml(const ConeTracing& found) {
     std::string out;
     for (const ConeScene& scene : found.scenes)
-        out += fmt::format(
-                   "<h3>{}</h3><p class='under'>Judged at {}x{}, timed at {}x{}. The reference's own row is "
-                   "{} against {}, on the middle quarter.</p>",
-                   escapedHtml(scene.name), scene.width, scene.height, scene.timed_width, scene.timed_height,
-                   escapedHtml(found.reference), escapedHtml(found.finer)) +
-               methodsTable(scene);
+        out += fmt::format("<h3>{}</h3><p class='under'>Judged at {}x{}, timed at {}x{}.</p>",
+                           escapedHtml(scene.name), scene.width, scene.height, scene.timed_width,
+                           scene.timed_height) +
+               methodsTable(found, scene);
     return out;
+}
+
+std::string referenceWords(const ConeTracing& found) {
+    return fmt::format(
+        "<p class='under'>Reference: {0} x {0} rays a pixel that end {0} times nearer to surfaces than those "
+        "of ssaa:{0}, whose outlines are a sixteenth of a pixel too wide; its own error is against {1} x {1} "
+        "on "
+        "the picture's middle quarter. Kinds are told by {2} x {2} rays a pixel.</p>\n",
+        found.reference_side, found.finer_side, found.facts_side);
 }
 
 nlohmann::ordered_json psnrJson(const EdgePsnr& psnr) {
@@ -118,9 +129,9 @@ std::string coneTracingHtml(const ConeTracing& found) {
                compare::kReportStyle, kPageStyle, escapedHtml(version()), found.quick ? " --quick" : "",
                found.runs, found.runs == 1 ? "" : "s", found.seconds) +
            "<h2>What the paper says, and what is asked of ours</h2>" + claimsTable(found) + kWords +
-           "<h2>Scene by scene</h2>" + scenesHtml(found) + "<h2>Pixels with edges</h2>" + countsTable(found) +
-           pictureRowsHtml(found.pictures) + "</main>\n<script>" + compare::kSortScript +
-           "</script></body></html>\n";
+           referenceWords(found) + "<h2>Scene by scene</h2>" + scenesHtml(found) +
+           "<h2>Pixels with edges</h2>" + countsTable(found) + pictureRowsHtml(found.pictures) +
+           "</main>\n<script>" + compare::kSortScript + "</script></body></html>\n";
 }
 
 std::string coneTracingJson(const ConeTracing& found) {
@@ -140,6 +151,7 @@ std::string coneTracingJson(const ConeTracing& found) {
                           {"size", {scene.width, scene.height}},
                           {"timed_size", {scene.timed_width, scene.timed_height}},
                           {"pixels", pixels},
+                          {"plain_reference_psnr", psnrJson(scene.plain_reference)},
                           {"reference_psnr", psnrJson(scene.reference)},
                           {"runs", runs}});
     }
@@ -149,8 +161,13 @@ std::string coneTracingJson(const ConeTracing& found) {
                           {"paper", claim.paper},
                           {"aim", claim.bar},
                           {"met", claim.met ? Json(*claim.met) : Json()}});
-    return Json{{"seconds", found.seconds}, {"runs", found.runs}, {"reference", found.reference},
-                {"finer", found.finer},     {"claims", claims},   {"scenes", scenes}}
+    return Json{{"seconds", found.seconds},
+                {"runs", found.runs},
+                {"reference_side", found.reference_side},
+                {"finer_side", found.finer_side},
+                {"facts_side", found.facts_side},
+                {"claims", claims},
+                {"scenes", scenes}}
                .dump(2) +
            "\n";
 }

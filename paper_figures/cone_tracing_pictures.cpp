@@ -45,7 +45,7 @@ PictureRow weights(const ConeTracingEffort& effort, Progress& progress) {
                    "with cones of five pixels it is clearer still. Pixels are 8 times as large.",
                    {}};
     ConeView view("primitives", effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 2);
+    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
     std::vector<EdgeKind> contours = kinds;
     for (EdgeKind& kind : contours)
         if (kind != EdgeKind::kContour) kind = EdgeKind::kNone;
@@ -62,11 +62,10 @@ PictureRow weights(const ConeTracingEffort& effort, Progress& progress) {
 
 /// Figure 9.
 PictureRow affected(const std::string& scene, const ConeTracingEffort& effort, Progress& progress) {
-    PictureRow row{
-        fmt::format("Affected pixels (Figure 9), {}", scene),
-        "White: of more than one colour. `ctss` also mends edges whose ray meets the near surface; "
-        "`ctss-r` only those beside it; `ctss-x` also creases, textures' and shadows' borders.",
-        {}};
+    PictureRow row{fmt::format("Affected pixels (Figure 9), {}", scene),
+                   "White: of more than one colour. ctss also mends edges whose ray meets the near surface; "
+                   "ctss-r only those beside it; ctss-x also creases, textures' and shadows' borders.",
+                   {}};
     const ConeView view(scene, effort.picture_width, effort.picture_height);
     row.pictures.push_back(pictureOf(view.made("none", progress).image, "affected_" + scene, "the picture"));
     for (const char* method : {"ctss", "ctss-r", "ctss-x"}) {
@@ -88,13 +87,15 @@ PictureRow affected(const std::string& scene, const ConeTracingEffort& effort, P
 PictureRow edges(const std::string& scene, const ConeTracingEffort& effort, Progress& progress) {
     PictureRow row{fmt::format("At edges, {}", scene), "Pixels are 8 times as large.", {}};
     ConeView view(scene, effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 2);
+    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
     view.film.crop = busiestPart(kinds, view.film);
     for (const std::string& method :
          {std::string("none"), std::string("ctss-r"), std::string("ctss"), std::string("ssaa:2"),
-          std::string("ctss+ssaa:2"), std::string("ssaa:3"), std::string("ctss-x"), effort.reference})
+          std::string("ctss+ssaa:2"), std::string("ssaa:3"), std::string("ctss-x")})
         row.pictures.push_back(pictureOf(view.made(method, progress).image,
                                          "edges_" + scene + "_" + fileName(method), method, kEnlarged));
+    row.pictures.push_back(pictureOf(view.reference(effort.reference_side, progress).image,
+                                     "edges_" + scene + "_reference", "reference", kEnlarged));
     ImageBuffer colored(view.film.crop);
     for (int y = colored.box.y0; y < colored.box.y1; ++y)
         for (int x = colored.box.x0; x < colored.box.x1; ++x) {

@@ -108,14 +108,28 @@ std::vector<EdgeKind> edgeKinds(const FieldWindow& window, const sdf::RayGrid& r
 }
 
 std::vector<EdgeKind> edgeKindsOf(const MethodInput& input, int per_side) {
-    FieldWindow window;
-    window.pixels = input.film.crop, window.per_side = per_side;
-    Scene scene = input.scene;
-    scene.field = unlit(*input.scene.field);
-    const MethodInput plain{scene, input.camera, input.film, input.filter, input.options, input.progress};
-    const SampledFacts facts{makeCpuFieldTracer(plain, {})->trace(window),
-                             makeCpuFieldTracer(input, {})->trace(window).color};
-    return edgeKinds(window, rayGrid(input.camera, input.film, input.scene.field->far), facts);
+    constexpr int kRowsAtOnce = 16;
+    Scene plain_scene = input.scene;
+    plain_scene.field = unlit(*input.scene.field);
+    const MethodInput plain{plain_scene,  input.camera,  input.film,
+                            input.filter, input.options, input.progress};
+    FieldSettings settings;
+    settings.trace.threshold /= per_side;
+    const auto surfaces = makeCpuFieldTracer(plain, settings), colors = makeCpuFieldTracer(input, settings);
+    const sdf::RayGrid rays = rayGrid(input.camera, input.film, input.scene.field->far);
+    const PixelBox& crop = input.film.crop;
+    std::vector<EdgeKind> kinds;
+    for (int y = crop.y0; y < crop.y1; y += kRowsAtOnce) {
+        const int end = std::min(y + kRowsAtOnce, crop.y1);
+        // The row below is asked for what lies between.
+        FieldWindow window;
+        window.pixels = {crop.x0, y, crop.x1, std::min(end + 1, crop.y1)}, window.per_side = per_side;
+        const SampledFacts facts{surfaces->trace(window), colors->trace(window).color};
+        const std::vector<EdgeKind> band = edgeKinds(window, rays, facts);
+        kinds.insert(kinds.end(), band.begin(),
+                     band.begin() + static_cast<std::ptrdiff_t>(end - y) * crop.width());
+    }
+    return kinds;
 }
 
 }  // namespace edgewise::figures

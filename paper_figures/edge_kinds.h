@@ -31,7 +31,8 @@ struct SampledFacts {
 std::vector<EdgeKind> edgeKinds(const FieldWindow& window, const sdf::RayGrid& rays,
                                 const SampledFacts& facts);
 
-/// The facts of a picture on a lattice of per_side^2 a pixel, on the CPU.
+/// Of the film's crop, on a lattice of per_side^2 a pixel, whose rays end that much nearer to surfaces. On
+/// the CPU.
 std::vector<EdgeKind> edgeKindsOf(const MethodInput& input, int per_side);
 
 }  // namespace edgewise::figures
