@@ -33,5 +33,6 @@ const std::vector<Figure>& figureRegistry();
 std::vector<FigureFile> makeFilterStudy(const FigureInput& input);
 std::vector<FigureFile> makePerformance(const FigureInput& input);
 std::vector<FigureFile> makeSphereTracing(const FigureInput& input);
+std::vector<FigureFile> makeConeTracing(const FigureInput& input);
 
 }  // namespace edgewise::figures

@@ -10,6 +10,8 @@ const std::vector<Figure>& figureRegistry() {
          makePerformance},
         {"sphere-tracing", "Enhanced sphere tracing, sections 3 and 4",
          "what relaxation, cones, pruning and Keinert's other enhancements save", makeSphereTracing},
+        {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
+         "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
     };
     return figures;
 }

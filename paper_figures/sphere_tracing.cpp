@@ -28,8 +28,7 @@ std::vector<FigureFile> makeSphereTracing(const FigureInput& input) {
     const SphereTracing found = measureSphereTracing(effortFor(input.quick), input.progress);
     std::vector<FigureFile> files{{"report.html", sphereTracingHtml(found)},
                                   {"results.json", sphereTracingJson(found)}};
-    for (const PictureRow& row : found.pictures)
-        for (const PictureRow::Picture& picture : row.pictures) files.push_back(picture.file);
+    appendPictureFiles(found.pictures, files);
     return files;
 }
 

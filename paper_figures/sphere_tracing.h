@@ -8,6 +8,7 @@
 
 #include "paper_figures/figure.h"
 #include "paper_figures/figure_plot.h"
+#include "paper_figures/picture_row.h"
 #include "pipeline/field_tracer.h"
 
 namespace edgewise::figures {
@@ -75,16 +76,6 @@ struct PruningCount {
     double seconds_whole = 0.0, seconds_pruned = 0.0, build_seconds = 0.0;
     double instructions_whole = 0.0, instructions_pruned = 0.0;  ///< an evaluation
     std::uint64_t differing = 0;                                 ///< pixels whose depth differs in any bit
-};
-
-/// Pictures that are to be seen side by side.
-struct PictureRow {
-    std::string title, words;
-    struct Picture {
-        FigureFile file;  ///< PNG
-        std::string caption;
-    };
-    std::vector<Picture> pictures;
 };
 
 struct SphereTracing {

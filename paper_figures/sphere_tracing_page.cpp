@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "paper_figures/page_parts.h"
 #include "paper_figures/sphere_tracing.h"
-#include "pipeline/compare/base64.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
@@ -15,24 +15,6 @@ namespace {
 
 constexpr HitChange kHitChanges[]{HitChange::kSilhouette, HitChange::kGrazing, HitChange::kNarrow,
                                   HitChange::kAlone};
-
-constexpr const char* kStyle = R"css(
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(280px,1fr));gap:14px}
-.pictures figure{margin:0}
-.pictures img{width:100%;image-rendering:pixelated}
-.pictures figcaption{font-size:13px}
-p.under{font-size:13px;color:#444;margin:8px 0 0}
-)css";
-
-std::string table(const std::string& heads, const std::string& rows) {
-    return fmt::format(
-        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-        heads, rows);
-}
-
-std::string number(double value, const char* format) {
-    return fmt::format("<td data-value='{}'>{}</td>", value, fmt::format(fmt::runtime(format), value));
-}
 
 std::string runsTable(const std::vector<TracedScene>& scenes) {
     std::string rows;
@@ -114,26 +96,6 @@ std::string pruningTable(const SphereTracing& found) {
         "s</th><th>times "
         "faster</th><th>of it pruning, s, all threads</th><th>differing depths</th>",
         rows);
-}
-
-std::string pictures(const PictureRow& row) {
-    std::string out = fmt::format("<h3>{}</h3><p class='under'>{}</p><div class='pictures'>",
-                                  escapedHtml(row.title), escapedHtml(row.words));
-    for (const PictureRow::Picture& picture : row.pictures) {
-        const std::string& bytes = picture.file.bytes;
-        out += fmt::format(
-            "<figure class='card'><img alt='{0}' "
-            "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-            escapedHtml(picture.caption),
-            compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
-    }
-    return out + "</div>";
-}
-
-std::string pictures(const SphereTracing& found) {
-    std::string out;
-    for (const PictureRow& row : found.pictures) out += pictures(row);
-    return out.empty() ? out : "<h2>Pictures</h2>" + out;
 }
 
 std::size_t countOf(const TracedScene& scene, HitChange kind) {
@@ -224,14 +186,14 @@ std::string sphereTracingHtml(const SphereTracing& found) {
                "</head><body><main><h1>Sphere tracing</h1><p>edgewise {}, <code>edgewise figure "
                "sphere-tracing{} -o "
                "DIR</code>, CPU, {} run{}, {:.0f} s in all</p>\n",
-               compare::kReportStyle, kStyle, escapedHtml(version()), found.quick ? " --quick" : "",
+               compare::kReportStyle, kPageStyle, escapedHtml(version()), found.quick ? " --quick" : "",
                found.runs, found.runs == 1 ? "" : "s", found.seconds) +
            "<h2>Relaxation and cones: all scenes</h2>" + meansTable(found) + "<h2>Scene by scene</h2>" +
            runsTable(found.scenes) + kWords + "<h2>Other hits, pixel by pixel</h2>" + changesTable(found) +
            kChangeWords + "<h2>The convex shortcut</h2>" + runsTable(found.convex) +
            "<h2>Out of steps: which point is the hit</h2>" + candidatesTable(found) +
            "<h2>Discontinuity reduction</h2>" + jumpsTable(found) + "<h2>Pruning</h2>" + pruningTable(found) +
-           pictures(found) + notes(found) + "</main>\n<script>" + compare::kSortScript +
+           pictureRowsHtml(found.pictures) + notes(found) + "</main>\n<script>" + compare::kSortScript +
            "</script></body></html>\n";
 }
 

@@ -7,7 +7,6 @@
 
 #include "paper_figures/traced_view.h"
 #include "pipeline/methods/field_pictures.h"
-#include "pipeline/write_image.h"
 
 namespace edgewise::figures {
 namespace {
@@ -20,10 +19,7 @@ PictureRow::Picture picture(const TracedView& view, const std::string& name, con
                             const Color& color) {
     ImageBuffer image(view.film.crop);
     for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = glm::dvec4(color(i), 1.0);
-    WriteOptions options;
-    options.width = view.film.width, options.height = view.film.height;
-    const std::vector<unsigned char> png = encodeImage(image, ImageFormat::kPng, options);
-    return {{name + ".png", {png.begin(), png.end()}}, caption};
+    return pictureOf(image, name, caption);
 }
 
 template <class Value>

@@ -1,6 +1,7 @@
 // The papers' figures as a user makes them.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/read_image.h"
@@ -64,10 +65,34 @@ TEST(FigureCommand, PerformanceWritesItsFiles) {
     EXPECT_EQ(lines(readFile(own / "results.csv")).size(), 1 + 2 * json.at("scenes").at(0).at("rows").size());
 }
 
+TEST(FigureCommand, ConeTracingWritesItsFiles) {
+    const TemporaryFolder folder;
+    const ProgramRun done = runProgram({"figure", "cone-tracing", "--quick", "-o", "out"}, folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    const auto own = folder.path() / "out" / "cone-tracing";
+    EXPECT_NE(readFile(own / "report.html").find("6x6 over 4x8"), std::string::npos);
+    EXPECT_EQ(readImage(own / "weights_ctss_coverage_5.png").box.width(), 8 * 40);
+    EXPECT_EQ(readImage(own / "affected_primitives_ctss-x.png").box.width(), 96);
+    const auto json = nlohmann::json::parse(readFile(own / "results.json"));
+    ASSERT_EQ(json.at("scenes").size(), 2u);
+    for (const auto& scene : json.at("scenes")) {
+        std::uint64_t pixels = 0;
+        for (const auto& [kind, count] : scene.at("pixels").items()) pixels += count.get<std::uint64_t>();
+        EXPECT_EQ(pixels, 96u * 54u);
+        std::map<std::string, double> psnr;
+        for (const auto& run : scene.at("runs")) psnr[run.at("method")] = run.at("psnr").at("contour");
+        EXPECT_LT(psnr.at("none"), psnr.at("ctss"));
+        EXPECT_LT(psnr.at("none"), psnr.at("ssaa:2"));
+        EXPECT_LT(psnr.at("ctss:weights=uniform"), psnr.at("ctss"));
+        EXPECT_LT(psnr.at("ssaa:3"), scene.at("reference_psnr").at("contour"));
+    }
+}
+
 TEST(FigureCommand, ListsItsNames) {
     const ProgramRun run = runProgram({"figures"});
     EXPECT_EQ(run.status, 0);
-    for (const char* name : {"filter-study: ", "performance: "})
+    for (const char* name : {"filter-study: ", "performance: ", "cone-tracing: "})
         EXPECT_NE(run.out.find(name), std::string::npos) << name;
 }
 

@@ -1,0 +1,57 @@
+#include "paper_figures/picture_row.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/compare/base64.h"
+#include "pipeline/html_text.h"
+#include "pipeline/write_image.h"
+
+namespace edgewise::figures {
+namespace {
+
+std::string rowHtml(const PictureRow& row) {
+    std::string out = fmt::format("<h3>{}</h3><p class='under'>{}</p><div class='pictures'>",
+                                  escapedHtml(row.title), escapedHtml(row.words));
+    for (const PictureRow::Picture& picture : row.pictures) {
+        const std::string& bytes = picture.file.bytes;
+        out += fmt::format(
+            "<figure class='card'><img alt='{0}' "
+            "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
+            escapedHtml(picture.caption),
+            compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
+    }
+    return out + "</div>";
+}
+
+ImageBuffer enlarged(const ImageBuffer& image, int times) {
+    ImageBuffer large({0, 0, image.box.width() * times, image.box.height() * times});
+    for (int y = 0; y < large.box.y1; ++y)
+        for (int x = 0; x < large.box.x1; ++x)
+            large.rgba[large.index(x, y)] =
+                image.rgba[image.index(image.box.x0 + x / times, image.box.y0 + y / times)];
+    return large;
+}
+
+}  // namespace
+
+PictureRow::Picture pictureOf(const ImageBuffer& image, const std::string& name, const std::string& caption,
+                              int times) {
+    const ImageBuffer large = enlarged(image, times);
+    WriteOptions options;
+    options.width = large.box.width(), options.height = large.box.height();
+    const std::vector<unsigned char> png = encodeImage(large, ImageFormat::kPng, options);
+    return {{name + ".png", {png.begin(), png.end()}}, caption};
+}
+
+std::string pictureRowsHtml(std::span<const PictureRow> rows) {
+    std::string out;
+    for (const PictureRow& row : rows) out += rowHtml(row);
+    return out.empty() ? out : "<h2>Pictures</h2>" + out;
+}
+
+void appendPictureFiles(std::span<const PictureRow> rows, std::vector<FigureFile>& files) {
+    for (const PictureRow& row : rows)
+        for (const PictureRow::Picture& picture : row.pictures) files.push_back(picture.file);
+}
+
+}  // namespace edgewise::figures

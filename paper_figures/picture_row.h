@@ -1,0 +1,32 @@
+// Pictures of a figure's page.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "paper_figures/figure.h"
+#include "pipeline/image_buffer.h"
+
+namespace edgewise::figures {
+
+/// Pictures that are to be seen side by side.
+struct PictureRow {
+    std::string title, words;
+    struct Picture {
+        FigureFile file;  ///< PNG
+        std::string caption;
+    };
+    std::vector<Picture> pictures;
+};
+
+/// The picture as NAME.png, each of its pixels `times` as large.
+PictureRow::Picture pictureOf(const ImageBuffer& image, const std::string& name, const std::string& caption,
+                              int times = 1);
+
+/// A heading, words and <figure>s for each row; nothing for none. kPageStyle is theirs.
+std::string pictureRowsHtml(std::span<const PictureRow> rows);
+
+void appendPictureFiles(std::span<const PictureRow> rows, std::vector<FigureFile>& files);
+
+}  // namespace edgewise::figures

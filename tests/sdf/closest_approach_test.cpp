@@ -1,0 +1,133 @@
+// Where rays pass solids nearest, against closed forms and a search along the ray.
+#include "sdf/closest_approach.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "sdf/evaluate.h"
+#include "sdf/tree.h"
+
+namespace edgewise::sdf {
+namespace {
+
+constexpr unsigned kSeed = 20235;
+/// Of a pixel's radius: a step is the last one when it is no longer.
+constexpr double kLastStep = 1.0 / 64.0;
+
+FieldRay rayPast(std::mt19937& random, double distance) {
+    std::uniform_real_distribution<> number(-1.0, 1.0);
+    FieldRay ray;
+    const auto vector = [&] { return glm::dvec3(number(random), number(random), number(random)); };
+    ray.direction_world = glm::normalize(vector());
+    const glm::dvec3 aside = glm::normalize(glm::cross(ray.direction_world, vector()));
+    ray.origin_world = distance * aside - 5.0 * ray.direction_world;
+    ray.pixel_radius = 0.01;
+    return ray;
+}
+
+/// A ball's distance falls as the hypotenuse: each step ends R / D of the way from the foot, D being the
+/// distance of its middle.
+TEST(ClosestApproach, ABallIsItsClosedForm) {
+    Tree tree;
+    tree.add(Kind::kSphere, {1.0});
+    const Tape tape = lower(tree);
+    const CellTapes cells(tape, glm::dvec3(0.0), 8.0, false);
+    std::mt19937 random(kSeed);
+    std::printf("seed %u\n", kSeed);
+    std::uniform_real_distribution<> off(-0.2, 0.2);
+    for (const double gap : {0.002, 0.01, 0.1, 1.0}) {
+        int settled = 0;
+        double worst = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            const double middle = 1.0 + gap;
+            const FieldRay ray = rayPast(random, middle);
+            const auto near = closestApproach(cells, ray, 5.0 + off(random));
+            if (!near) continue;
+            ++settled;
+            // The last step is the way to the foot, s, times 1 - R / D.
+            const double s = 1.001 * kLastStep * ray.pixel_radius * std::hypot(middle, 0.2) / gap;
+            EXPECT_LE(std::abs(near->t - 5.0), s);
+            EXPECT_NEAR(near->distance, gap, s * s / (2.0 * middle) + 1e-12);
+            EXPECT_NEAR(glm::length(near->surface_world), 1.0, 1e-12);
+            EXPECT_NEAR(glm::length(near->outwards_world), 1.0, 1e-12);
+            worst = std::max(worst, (near->distance - gap) / ray.pixel_radius);
+        }
+        std::printf(
+            "passing a ball of radius 1 at %.3f: %d of 200 settle, distances too long by at most %.4f pixel "
+            "radii\n",
+            gap, settled, worst);
+        // A dozen steps end 2^-12 of the way where they halve it.
+        EXPECT_GE(settled, gap == 1.0 ? 200 : 1) << gap;
+    }
+}
+
+/// f along the ray is searched on a fine lattice, then by thirds.
+double leastAlong(const Tape& tape, const FieldRay& ray, double from, double to) {
+    const auto value = [&](double t) { return valueAt(tape, ray.origin_world + t * ray.direction_world); };
+    double best = from;
+    for (double t = from; t <= to; t += 0.002)
+        if (value(t) < value(best)) best = t;
+    double low = best - 0.002, high = best + 0.002;
+    while (high - low > 1e-9) {
+        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+        (value(a) < value(b) ? high : low) = value(a) < value(b) ? b : a;
+    }
+    return 0.5 * (low + high);
+}
+
+TEST(ClosestApproach, BoxesAndTheirEdgesAreTheSearchs) {
+    Tree tree;
+    tree.add(Kind::kBox, {2.0, 1.0, 1.5});
+    const Tape tape = lower(tree);
+    const CellTapes cells(tape, glm::dvec3(0.0), 8.0, false);
+    std::mt19937 random(kSeed);
+    std::printf("seed %u\n", kSeed);
+    int met = 0, none = 0;
+    double worst = 0.0;
+    while (met + none < 300) {
+        std::uniform_real_distribution<> aside(0.6, 1.5);
+        const FieldRay ray = rayPast(random, aside(random));
+        const double t = leastAlong(tape, ray, 3.0, 7.0);
+        const double distance = valueAt(tape, ray.origin_world + t * ray.direction_world);
+        if (distance <= 0.002 || distance > 0.02) continue;  // up to two radii of the pixel
+        std::uniform_real_distribution<> off(-0.02, 0.02);
+        const auto near = closestApproach(cells, ray, t + off(random));
+        if (!near) {
+            ++none;
+            continue;
+        }
+        ++met;
+        worst = std::max(worst, (near->distance - distance) / ray.pixel_radius);
+        EXPECT_GE(near->distance, distance - 1e-9);
+        // Settled or not, the point is of the surface, and leads out to the ray's point at its distance.
+        EXPECT_NEAR(valueAt(tape, near->surface_world), 0.0, 1e-12);
+        const glm::dvec3 back = near->surface_world + near->distance * near->outwards_world;
+        EXPECT_LE(glm::distance(back, ray.origin_world + near->t * ray.direction_world), 1e-12);
+    }
+    std::printf("%d found, %d not; distances too long by at most %.4f radii of the pixel\n", met, none,
+                worst);
+    EXPECT_GT(met, 200);
+    EXPECT_LE(worst, 1.0 / 16.0);  // what a line's samples may be on its wrong side
+}
+
+TEST(ClosestApproach, NoneWithinTheSolidOrBesideAWall) {
+    Tree tree;
+    tree.add(Kind::kBox, {2.0, 2.0, 2.0});
+    const Tape tape = lower(tree);
+    const CellTapes cells(tape, glm::dvec3(0.0), 8.0, false);
+    FieldRay ray;
+    ray.direction_world = {0.0, 0.0, -1.0}, ray.origin_world = {0.3, 0.2, 5.0}, ray.pixel_radius = 0.01;
+    EXPECT_FALSE(closestApproach(cells, ray, 5.0));
+    ray.origin_world.x = 1.25;
+    const auto beside = closestApproach(cells, ray, 5.5);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->distance, 0.25);
+    EXPECT_EQ(beside->outwards_world, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(beside->surface_world, glm::dvec3(1.0, 0.2, -0.5));
+}
+
+}  // namespace
+}  // namespace edgewise::sdf
