@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/sample_pattern.h"
 #include "sdf/closest_approach.h"
 
 namespace edgewise {
@@ -68,8 +69,12 @@ void takeBend(CellPiece& piece, const CellPiece& other) {
 glm::dvec2 EdgeCell::sampleAt(int i) const {
     if (i == 0) return centre_px;
     if (i <= kCorners) return centre_px + glm::dvec2(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5);
-    const int k = i - 1 - kCorners;
-    return centre_px + glm::dvec2((k % 4 - 1.5) / 4.0, (k / 4 - 1.5) / 4.0);
+    return countedPlace(centre_px, i - 1 - kCorners);
+}
+
+glm::dvec2 countedPlace(const glm::dvec2& centre_px, int i) {
+    static const SamplePattern pattern = standardPattern(EdgeCell::kStandard);
+    return centre_px + pattern.at_px[static_cast<std::size_t>(i)] - 0.5 + 1.0 / 32.0;
 }
 
 int EdgeCells::labelOf(const EdgeCell& cell, int i, double depth) const {
@@ -209,7 +214,7 @@ void EdgeCells::divideByLines(EdgeCell& cell) const {
 
 void EdgeCells::divideByCount(EdgeCell& cell) const {
     for (int i = 1 + EdgeCell::kCorners; i < EdgeCell::kMost; ++i)
-        cell.pieces[cell.labels[i]].weight += 1.0 / EdgeCell::kLattice;
+        cell.pieces[cell.labels[i]].weight += 1.0 / EdgeCell::kStandard;
     cell.resolved = true;
 }
 

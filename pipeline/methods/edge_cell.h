@@ -33,8 +33,8 @@ bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius);
 void takeBend(CellPiece& piece, const CellPiece& other);
 
 struct EdgeCell {
-    /// Beside the centre: the four corners, then a lattice of 4 x 4.
-    static constexpr int kCorners = 4, kLattice = 16, kMost = 1 + kCorners + kLattice;
+    /// Beside the centre: the four corners, then the standard sample locations, no two in a row or column.
+    static constexpr int kCorners = 4, kStandard = 16, kMost = 1 + kCorners + kStandard;
     static constexpr int kUnknown = -1;
 
     std::size_t pixel = 0;  ///< in the window
@@ -50,6 +50,9 @@ struct EdgeCell {
     glm::dvec2 sampleAt(int i) const;
 };
 
+/// The standard location i of 16 within a pixel, moved by 1/32 px so that their mean is the centre.
+glm::dvec2 countedPlace(const glm::dvec2& centre_px, int i);
+
 /// Labels samples and divides pixels.
 class EdgeCells {
   public:
@@ -61,7 +64,7 @@ class EdgeCells {
     int labelOf(const EdgeCell& cell, int i, double depth) const;
     /// Divides the cell by lines, if what its samples see agrees with them.
     void divideByLines(EdgeCell& cell) const;
-    /// By counting the lattice's labels.
+    /// By counting the labels at the standard locations.
     void divideByCount(EdgeCell& cell) const;
     /// Of the samples that see the piece the one nearest to their mean; kUnknown: none does.
     int sampleOf(const EdgeCell& cell, int piece) const;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sdf/film_line.h"
+#include "pipeline/methods/edge_cell.h"
 
 namespace edgewise {
 namespace {
@@ -133,8 +133,7 @@ class LightBorders {
     void count() {
         std::vector<std::pair<std::size_t, glm::dvec2>> places;
         for (const std::size_t i : unclear_)
-            for (int k = 0; k < 16; ++k)
-                places.emplace_back(i, cells_[i].centre_px + glm::dvec2(k % 4 - 1.5, k / 4 - 1.5) / 4.0);
+            for (int k = 0; k < 16; ++k) places.emplace_back(i, countedPlace(cells_[i].centre_px, k));
         const std::vector<Seen> seen = ask(places);
         for (const std::size_t i : unclear_) means_[i] = glm::dvec4(0.0);
         for (std::size_t i = 0; i < seen.size(); ++i) means_[unclear_[i / 16]] += seen[i].color / 16.0;

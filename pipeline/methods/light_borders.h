@@ -14,7 +14,7 @@ struct LightCell {
 };
 
 /// The mean colour over each cell: by the line between the two places where the border crosses the cell's
-/// sides, if it crosses two; else over 4 x 4 places.
+/// sides, if it crosses two; else over 16 places.
 std::vector<glm::dvec4> meansOver(const sdf::RayGrid& grid, FieldTracer& tracer,
                                   const std::vector<LightCell>& cells);
 
