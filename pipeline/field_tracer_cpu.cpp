@@ -140,7 +140,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         eachPart(rays.size(), 64, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 sdf::TraceHit hit;
-                hit.t = depths[i];
+                hit.t = depths[i], hit.value = NAN;
                 if (std::isfinite(hit.t)) hit.end = sdf::TraceEnd::kSurface;
                 hits[i] = tracer_.fieldHit(rays[i].ray, hit, rays[i].sign);
             }
@@ -289,7 +289,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
             const std::uint32_t sample = tile.samples[k];
             for (std::uint32_t i = out.begin[sample]; i < out.begin[sample + 1]; ++i, ++group) {
                 out.groups[i] = *group;
-                const sdf::TraceHit hit{sdf::TraceEnd::kSurface, group->t, 0.0,
+                const sdf::TraceHit hit{sdf::TraceEnd::kSurface, group->t, NAN,
                                         out.evaluations[sample], 0,        0};
                 out.surfaces[i] = tracer_.fieldHit(out.rays[sample].ray, hit, sign_);
             }

@@ -19,7 +19,8 @@ glm::dvec3 patternPoint(const glm::dvec3& p_world, const glm::dvec3& outward, do
 
 /// Gives a hit of the field whose p_world and t are known its normal, and of the tree's winning branch there
 /// the material, one of `materials`, and the pattern's point in its frame. Gives back the height of the hit
-/// above the surface, to first order; 0 where the field has no slope.
+/// above the surface, to first order; 0 where the field has no slope. A value that is not known, NaN, is the
+/// field's there.
 double describeHit(const TapeView& tape, SurfaceHit& hit, std::size_t materials);
 
 }  // namespace edgewise::sdf

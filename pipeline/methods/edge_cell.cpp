@@ -192,7 +192,7 @@ bool EdgeCells::divideByStrip(EdgeCell& cell) const {
     const glm::dvec2 place = sdf::centroidOf(part);
     const sdf::FieldRay ray = rayOf(place);
     const double t = glm::dot(near->surface_world - ray.origin_world, ray.direction_world);
-    const sdf::SurfaceHit hit = tracer_->fieldHit(ray, {sdf::TraceEnd::kSurface, t, 0.0, 0, 0, 0}, 1.0);
+    const sdf::SurfaceHit hit = tracer_->fieldHit(ray, {sdf::TraceEnd::kSurface, t, NAN, 0, 0, 0}, 1.0);
     CellPiece piece = pieceOf(&hit, place);
     piece.hit = hit, piece.weight = share;
     cell.pieces.push_back(piece);

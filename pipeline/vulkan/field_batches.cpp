@@ -102,6 +102,7 @@ sdf::SurfaceHit FieldBatches::surfaceAt(const sdf::TravellingRay& ray, double t)
     sdf::SurfaceHit hit;
     hit.hit = true, hit.inside = ray.sign < 0.0, hit.t = t;
     hit.p_world = ray.ray.origin_world + ray.ray.direction_world * t;
+    hit.value = NAN;
     return hit;
 }
 
@@ -119,7 +120,10 @@ void FieldBatches::describeMap(std::span<const sdf::TravellingRay> rays, std::sp
             at[i] = static_cast<float>(hits[first + i].t);
         }
         const std::span<const GpuHit> found = rays_->describe(asked, at);
-        for (std::size_t i = 0; i < count; ++i) takeMap(hits[first + i], found[i], rays[first + i].sign);
+        for (std::size_t i = 0; i < count; ++i) {
+            takeMap(hits[first + i], found[i], rays[first + i].sign);
+            hits[first + i].value = 0.0;
+        }
     }
 }
 
