@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper_figures/traced_view.h"
 #include "pipeline/field_rays.h"
 
 namespace edgewise::figures {
@@ -57,16 +58,6 @@ class Facts {
     const sdf::RayGrid& rays_;
     const SampledFacts& facts_;
 };
-
-/// Materials as they are: no light, nothing mirrored.
-std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
-    auto copy = std::make_shared<sdf::FieldScene>(scene);
-    for (sdf::SurfaceMaterial& material : copy->materials) {
-        material.shading = sdf::SurfaceMaterial::Shading::kUnlit;
-        material.reflectance = material.transmittance = 0.0;
-    }
-    return copy;
-}
 
 EdgeKind first(EdgeKind a, EdgeKind b) {
     if (a == EdgeKind::kNone || b == EdgeKind::kNone) return std::max(a, b);

@@ -8,7 +8,6 @@
 #include "pipeline/scene_catalog.h"
 
 namespace edgewise::figures {
-namespace {
 
 std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
     auto copy = std::make_shared<sdf::FieldScene>(scene);
@@ -18,8 +17,6 @@ std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
     }
     return copy;
 }
-
-}  // namespace
 
 TracedView::TracedView(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
     scene.field = unlit(*scene.field);

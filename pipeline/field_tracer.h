@@ -42,6 +42,11 @@ struct FieldSamples {
     std::vector<float> residual;         ///< the field's value at the hit
     std::vector<std::uint32_t> evaluations, iterations;
     std::vector<std::uint8_t> mixed;  ///< 1: of more than one colour; empty where samples have one each
+
+    /// Of so many samples that hit nothing; `mixed` is empty.
+    static FieldSamples sized(std::size_t count);
+    /// Depth, surface and normal, on the ray's side, of what a sample's ray meets.
+    void take(std::size_t i, const sdf::FieldRay& ray, const sdf::SurfaceHit& hit);
 };
 
 /// What the cones around a window's samples meet, front to back. One entry a sample: `rays`, `evaluations`,

@@ -66,7 +66,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
     }
 
     FieldSamples trace(const FieldWindow& window) override {
-        FieldSamples out = sized(window.samples());
+        FieldSamples out = FieldSamples::sized(window.samples());
         std::vector<sdf::TraceHit> hits(window.samples());
         watch_.lap();
         if (tape_.size() > 0) traceTiles(window, hits);
@@ -171,14 +171,6 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         });
         for (const sdf::TileCounts& part : counts) counts_ += part;
         return depths;
-    }
-
-    static FieldSamples sized(std::size_t count) {
-        FieldSamples out;
-        out.color.resize(count), out.depth.resize(count), out.normal.resize(count);
-        out.surface.resize(count), out.residual.resize(count);
-        out.evaluations.resize(count), out.iterations.resize(count);
-        return out;
     }
 
     static glm::dvec2 positionOf(const FieldWindow& window, std::size_t row, std::size_t column) {
@@ -346,12 +338,8 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         tracer_.meetAnalytic(ray, seen);
         out.color[i] = shader_.shade(ray, seen, counts, sign_);
         out.evaluations[i] = hit.evaluations, out.iterations[i] = hit.iterations;
-        out.depth[i] = seen.hit ? seen.t : HUGE_VAL;
-        out.surface[i] = seen.hit ? seen.material : kNone;
-        if (!seen.hit) return;
-        const bool away = glm::dot(seen.normal_world, ray.direction_world) > 0.0;
-        out.normal[i] = glm::vec3(away ? -seen.normal_world : seen.normal_world);
-        out.residual[i] = static_cast<float>(seen.value);
+        out.take(i, ray, seen);
+        if (seen.hit) out.residual[i] = static_cast<float>(seen.value);
     }
 
     void reportCounts(MethodResult& result) const {

@@ -13,8 +13,9 @@ struct ConeSettings {
     int visible = 32;            ///< tracing may end once so many bits of the mask are set
     bool normalize_sky =
         false;  ///< as printed: divided by the samples' weights; else the sky is the last sample
-    bool shade_at_once =
-        false;  ///< within the loop, as printed; else when it has ended. The picture is the same
+    /// As printed, within the loop; else when it has ended. The picture is the same. Vulkan pauses at every
+    /// group for it, but all is shaded in the end.
+    bool shade_at_once = false;
 };
 
 }  // namespace edgewise::sdf

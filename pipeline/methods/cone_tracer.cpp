@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/field_rays.h"
+#include "pipeline/methods/over_device.h"
 #include "pipeline/methods/stopwatch.h"
 #include "sdf/field_of_all.h"
 
@@ -16,17 +17,18 @@ constexpr std::size_t kTile = 8;
 /// Samples whose groups are held at once.
 constexpr std::size_t kSamplesAtOnce = std::size_t{1} << 17;
 
-class ConeTracer : public FieldTracer {
+class ConeTracer : public OverDevice {
   public:
     ConeTracer(const MethodInput& in, const FieldSettings& settings, std::unique_ptr<FieldTracer> device)
-        : settings_(*settings.cones),
+        : OverDevice(std::move(device)),
+          settings_(*settings.cones),
           grid_(rayGrid(in.camera, in.film, 1.0)),
-          background_(in.options.background, 0.0),
-          device_(std::move(device)) {}
+          background_(in.options.background, 0.0) {}
 
     /// By parts that end at multiples of 64 rows, where tiles do.
     FieldSamples trace(const FieldWindow& window) override {
-        FieldSamples out = sized(window.samples());
+        FieldSamples out = FieldSamples::sized(window.samples());
+        out.mixed.resize(window.samples());
         const std::size_t row = window.stride() * static_cast<std::size_t>(window.per_side);
         const int rows = static_cast<int>(std::max<std::size_t>(kSamplesAtOnce / row / 64, 1)) * 64;
         for (int y = window.pixels.y0; y < window.pixels.y1;) {
@@ -36,13 +38,6 @@ class ConeTracer : public FieldTracer {
         }
         return out;
     }
-    FieldCones traceCones(const FieldWindow& window) override { return device_->traceCones(window); }
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
-                                  std::vector<std::uint32_t>* sights) override {
-        return device_->shade(rays, std::move(hits), sights);
-    }
-    RayBatches& batches() override { return device_->batches(); }
-
     void report(MethodResult& result) const override {
         device_->report(result);
         result.stages.insert(result.stages.end(), stages_.begin(), stages_.end());
@@ -58,14 +53,6 @@ class ConeTracer : public FieldTracer {
         std::vector<sdf::TravellingRay> rays;
         std::vector<sdf::SurfaceHit> surfaces;
     };
-
-    static FieldSamples sized(std::size_t count) {
-        FieldSamples out;
-        out.color.resize(count), out.depth.resize(count, HUGE_VAL), out.normal.resize(count, glm::vec3(0.0f));
-        out.surface.resize(count, kNone), out.residual.resize(count);
-        out.evaluations.resize(count), out.iterations.resize(count), out.mixed.resize(count);
-        return out;
-    }
 
     void tracePart(const FieldWindow& window, int y0, int y1, FieldSamples& out) {
         FieldWindow part = window;
@@ -178,10 +165,7 @@ class ConeTracer : public FieldTracer {
     static void takeCentre(const FieldCones& cones, std::size_t i, std::size_t to, FieldSamples& out) {
         for (std::uint32_t g = cones.begin[i]; g < cones.begin[i + 1]; ++g) {
             if (!cones.groups[g].hard) continue;
-            const sdf::SurfaceHit& hit = cones.surfaces[g];
-            const bool away = glm::dot(hit.normal_world, cones.rays[i].ray.direction_world) > 0.0;
-            out.depth[to] = hit.t, out.surface[to] = hit.material;
-            out.normal[to] = glm::vec3(away ? -hit.normal_world : hit.normal_world);
+            out.take(to, cones.rays[i].ray, cones.surfaces[g]);
             return;
         }
     }
@@ -189,7 +173,6 @@ class ConeTracer : public FieldTracer {
     const sdf::ConeSettings settings_;
     const sdf::RayGrid grid_;
     const glm::dvec4 background_;
-    std::unique_ptr<FieldTracer> device_;
     Stopwatch watch_;
     std::vector<StageTime> stages_;
     std::uint64_t groups_ = 0, seen_ = 0, mixed_ = 0;

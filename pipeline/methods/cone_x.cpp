@@ -9,6 +9,7 @@
 #include "pipeline/field_shading.h"
 #include "pipeline/methods/edge_cell.h"
 #include "pipeline/methods/light_borders.h"
+#include "pipeline/methods/over_device.h"
 #include "pipeline/methods/pattern_footprint.h"
 #include "pipeline/methods/stopwatch.h"
 
@@ -49,21 +50,22 @@ struct ConeRows {
     }
 };
 
-class ConeXTracer : public FieldTracer {
+class ConeXTracer : public OverDevice {
   public:
     ConeXTracer(const MethodInput& in, const FieldSettings& settings, std::unique_ptr<FieldTracer> device)
-        : in_(in),
+        : OverDevice(std::move(device)),
+          in_(in),
           scene_(*in.scene.field),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
-          background_(in.options.background, 0.0),
-          device_(std::move(device)) {
+          background_(in.options.background, 0.0) {
         if (scene_.glsl || scene_.tree.empty()) return;
         tape_ = loweredTree(scene_);
         field_.emplace(scene_, tape_, sdf::trustedSettings(scene_, settings.trace));
     }
 
     FieldSamples trace(const FieldWindow& window) override {
-        FieldSamples out = sized(window.samples());
+        FieldSamples out = FieldSamples::sized(window.samples());
+        out.mixed.resize(window.samples());
         for (int y = window.pixels.y0; y < window.pixels.y1;) {
             const int end = std::min((y / kRowsAtOnce + 1) * kRowsAtOnce, window.pixels.y1);
             traceRows(window, y, std::max(end, y + 1), out);
@@ -71,13 +73,6 @@ class ConeXTracer : public FieldTracer {
         }
         return out;
     }
-    FieldCones traceCones(const FieldWindow& window) override { return device_->traceCones(window); }
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
-                                  std::vector<std::uint32_t>* sights) override {
-        return device_->shade(rays, std::move(hits), sights);
-    }
-    RayBatches& batches() override { return device_->batches(); }
-
     void report(MethodResult& result) const override {
         device_->report(result);
         result.stages.insert(result.stages.end(), stages_.begin(), stages_.end());
@@ -88,14 +83,6 @@ class ConeXTracer : public FieldTracer {
     }
 
   private:
-    static FieldSamples sized(std::size_t count) {
-        FieldSamples out;
-        out.color.resize(count), out.depth.resize(count, HUGE_VAL), out.normal.resize(count, glm::vec3(0.0f));
-        out.surface.resize(count, kNone), out.residual.resize(count);
-        out.evaluations.resize(count), out.iterations.resize(count), out.mixed.resize(count);
-        return out;
-    }
-
     void traceRows(const FieldWindow& window, int y0, int y1, FieldSamples& out) {
         const ConeRows rows = conesOf({window.pixels.x0 - 1, y0 - 1, window.pixels.x1 + 1, y1 + 1});
         watch_.lap();
@@ -162,7 +149,7 @@ class ConeXTracer : public FieldTracer {
         }
         if (!doubtful) return std::nullopt;
         EdgeCell cell;
-        cell.pixel = i, cell.centre_px = rows.centreOf(i);
+        cell.pixel = i, cell.centre_px = rows.centreOf(i), cell.sign = rows.cones.rays[i].sign;
         cell.pieces.push_back(centre);
         if (own) cell.pieces.front().hit = *own;
         cell.depths[0] = own ? own->t : HUGE_VAL;
@@ -185,7 +172,7 @@ class ConeXTracer : public FieldTracer {
         eachUnresolved(cells, [&](EdgeCell& cell) {
             dividing.divideByLines(cell);
             if (cell.resolved) return;
-            dividing.divideByCount(cell);
+            cell.divideByCount();
             ++counted.local();
         });
         for (const std::size_t part : counted) counted_ += part;
@@ -199,7 +186,7 @@ class ConeXTracer : public FieldTracer {
     }
 
     sdf::TravellingRay rayFrom(const EdgeCell& cell, const glm::dvec2& p_px) const {
-        sdf::TravellingRay ray{grid_.ray(p_px)};
+        sdf::TravellingRay ray{grid_.ray(p_px), cell.sign};
         ray.ray.t_min = std::max(ray.ray.t_min, std::min(cell.t_start, ray.ray.t_max));
         return ray;
     }
@@ -294,7 +281,7 @@ class ConeXTracer : public FieldTracer {
             for (std::size_t k = 1; k < cell.pieces.size(); ++k) {
                 const CellPiece& piece = cell.pieces[k];
                 if (piece.weight == 0.0 || piece.sky || !piece.hit) continue;
-                shades.rays.push_back({grid_.ray(piece.seen_px)});
+                shades.rays.push_back({grid_.ray(piece.seen_px), cell.sign});
                 shades.hits.push_back(*piece.hit);
                 takePattern(rows, cell.pixel, shades.hits.back());
             }
@@ -304,7 +291,6 @@ class ConeXTracer : public FieldTracer {
 
     /// Pieces that only neighbours have met are met within their pixel.
     void meetPieces(std::vector<EdgeCell>& cells) {
-        const EdgeCells dividing(grid_, nullptr);
         std::vector<sdf::TravellingRay> rays;
         std::vector<double> depths;
         std::vector<std::pair<EdgeCell*, std::size_t>> pieces;
@@ -312,7 +298,7 @@ class ConeXTracer : public FieldTracer {
             for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
                 CellPiece& piece = cell.pieces[k];
                 if (piece.weight == 0.0 || piece.sky || piece.hit) continue;
-                const int sample = dividing.sampleOf(cell, static_cast<int>(k));
+                const int sample = cell.sampleOf(static_cast<int>(k));
                 if (sample == EdgeCell::kUnknown) continue;
                 piece.seen_px = cell.sampleAt(sample);
                 rays.push_back(rayFrom(cell, piece.seen_px));
@@ -391,7 +377,8 @@ class ConeXTracer : public FieldTracer {
         std::vector<LightCell> light_cells;
         for (const std::size_t i : found) {
             const std::uint32_t own = shades.of_pixel[i];
-            light_cells.push_back({rows.centreOf(i), shades.hits[own], colors[i], shades.sights[own]});
+            light_cells.push_back(
+                {rows.centreOf(i), rows.cones.rays[i].sign, shades.hits[own], colors[i], shades.sights[own]});
         }
         const std::vector<glm::dvec4> mended = meansOver(grid_, *device_, light_cells);
         for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = mended[k];
@@ -424,11 +411,7 @@ class ConeXTracer : public FieldTracer {
                 out.color[k] = colors[i];
                 out.evaluations[k] = out.iterations[k] = rows.cones.evaluations[i];
                 ++pixels_;
-                const sdf::SurfaceHit* hit = rows.hitOf(i);
-                if (!hit) continue;
-                const bool away = glm::dot(hit->normal_world, rows.cones.rays[i].ray.direction_world) > 0.0;
-                out.depth[k] = hit->t, out.surface[k] = hit->material;
-                out.normal[k] = glm::vec3(away ? -hit->normal_world : hit->normal_world);
+                if (const sdf::SurfaceHit* hit = rows.hitOf(i)) out.take(k, rows.cones.rays[i].ray, *hit);
             }
         for (const EdgeCell& cell : cells)
             if (cell.pieces.front().weight < 1.0) out.mixed[to(cell.pixel)] = 1, ++complex_;
@@ -440,7 +423,6 @@ class ConeXTracer : public FieldTracer {
     const sdf::FieldScene& scene_;
     const sdf::RayGrid grid_;
     const glm::dvec4 background_;
-    std::unique_ptr<FieldTracer> device_;
     sdf::Tape tape_;
     std::optional<sdf::SceneTracer> field_;
     Stopwatch watch_;

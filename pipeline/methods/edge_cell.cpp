@@ -192,7 +192,7 @@ bool EdgeCells::divideByStrip(EdgeCell& cell) const {
     const glm::dvec2 place = sdf::centroidOf(part);
     const sdf::FieldRay ray = rayOf(place);
     const double t = glm::dot(near->surface_world - ray.origin_world, ray.direction_world);
-    const sdf::SurfaceHit hit = tracer_->fieldHit(ray, {sdf::TraceEnd::kSurface, t, NAN, 0, 0, 0}, 1.0);
+    const sdf::SurfaceHit hit = tracer_->fieldHit(ray, {sdf::TraceEnd::kSurface, t, NAN, 0, 0, 0}, cell.sign);
     CellPiece piece = pieceOf(&hit, place);
     piece.hit = hit, piece.weight = share;
     cell.pieces.push_back(piece);
@@ -212,24 +212,21 @@ void EdgeCells::divideByLines(EdgeCell& cell) const {
     }
 }
 
-void EdgeCells::divideByCount(EdgeCell& cell) const {
-    for (int i = 1 + EdgeCell::kCorners; i < EdgeCell::kMost; ++i)
-        cell.pieces[cell.labels[i]].weight += 1.0 / EdgeCell::kStandard;
-    cell.resolved = true;
+void EdgeCell::divideByCount() {
+    for (int i = 1 + kCorners; i < kMost; ++i) pieces[labels[i]].weight += 1.0 / kStandard;
+    resolved = true;
 }
 
-int EdgeCells::sampleOf(const EdgeCell& cell, int piece) const {
+int EdgeCell::sampleOf(int piece) const {
     glm::dvec2 sum(0.0);
     int count = 0;
-    for (int i = 0; i < cell.samples; ++i)
-        if (cell.labels[i] == piece) sum += cell.sampleAt(i), ++count;
-    int best = EdgeCell::kUnknown;
-    for (int i = 0; i < cell.samples; ++i) {
-        if (cell.labels[i] != piece) continue;
-        const auto off = [&](int k) {
-            return glm::distance(cell.sampleAt(k), sum / static_cast<double>(count));
-        };
-        if (best == EdgeCell::kUnknown || off(i) < off(best)) best = i;
+    for (int i = 0; i < samples; ++i)
+        if (labels[i] == piece) sum += sampleAt(i), ++count;
+    int best = kUnknown;
+    for (int i = 0; i < samples; ++i) {
+        if (labels[i] != piece) continue;
+        const auto off = [&](int k) { return glm::distance(sampleAt(k), sum / static_cast<double>(count)); };
+        if (best == kUnknown || off(i) < off(best)) best = i;
     }
     return best;
 }

@@ -39,6 +39,7 @@ struct EdgeCell {
 
     std::size_t pixel = 0;  ///< in the window
     glm::dvec2 centre_px{0.0};
+    double sign = 1.0;             ///< of its rays
     double t_start = 0.0;          ///< no surface lies before it in the pixel
     std::optional<double> soft_t;  ///< where a solid that the centre's ray misses comes into its cone
     std::vector<CellPiece> pieces;
@@ -48,6 +49,10 @@ struct EdgeCell {
     bool resolved = false;
 
     glm::dvec2 sampleAt(int i) const;
+    /// Of the samples that see the piece the one nearest to their mean; kUnknown: none does.
+    int sampleOf(int piece) const;
+    /// Divides it by counting the labels at the standard locations.
+    void divideByCount();
 };
 
 /// The standard location i of 16 within a pixel, moved by 1/32 px so that their mean is the centre.
@@ -64,10 +69,6 @@ class EdgeCells {
     int labelOf(const EdgeCell& cell, int i, double depth) const;
     /// Divides the cell by lines, if what its samples see agrees with them.
     void divideByLines(EdgeCell& cell) const;
-    /// By counting the labels at the standard locations.
-    void divideByCount(EdgeCell& cell) const;
-    /// Of the samples that see the piece the one nearest to their mean; kUnknown: none does.
-    int sampleOf(const EdgeCell& cell, int piece) const;
 
   private:
     sdf::FieldRay rayOf(const glm::dvec2& p_px) const { return grid_.ray(p_px); }

@@ -56,7 +56,7 @@ class LightBorders {
         std::vector<sdf::SurfaceHit> hits(places.size());
         tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t i) {
             const LightCell& cell = cells_[places[i].first];
-            rays[i] = {grid_.ray(places[i].second)};
+            rays[i] = {grid_.ray(places[i].second), cell.sign};
             hits[i] = onPlane(cell.hit, rays[i].ray);
         });
         std::vector<std::uint32_t> sights;

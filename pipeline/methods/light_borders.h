@@ -8,6 +8,7 @@ namespace edgewise {
 
 struct LightCell {
     glm::dvec2 centre_px;
+    double sign;              ///< of its rays
     sdf::SurfaceHit hit;      ///< the centre's: its tangent plane stands for the surface
     glm::dvec4 color;         ///< the centre's
     std::uint32_t sight = 0;  ///< the centre's, as FieldTracer::shade() gives it

@@ -146,10 +146,9 @@ class VulkanFieldTracer : public FieldTracer {
 
     FieldSamples traceBands(const FieldWindow& window) {
         const auto start = std::chrono::steady_clock::now();
-        FieldSamples samples;
+        FieldSamples samples = FieldSamples::sized(window.samples());
         const std::size_t stride = window.stride(),
                           rows = window.samples() / std::max<std::size_t>(stride, 1);
-        resize(samples, window.samples());
         const std::size_t tile_row = (stride + kFieldTile - 1) / kFieldTile * kFieldTile * kFieldTile;
         const std::size_t band = std::max<std::size_t>(1, most_ / tile_row) * kFieldTile;
         for (std::size_t first = 0; first < rows; first += band)
@@ -176,23 +175,12 @@ class VulkanFieldTracer : public FieldTracer {
         });
     }
 
-    static void resize(FieldSamples& samples, std::size_t count) {
-        samples.color.resize(count), samples.depth.resize(count), samples.normal.resize(count);
-        samples.surface.resize(count), samples.residual.resize(count);
-        samples.evaluations.resize(count), samples.iterations.resize(count);
-    }
-
     static void fill(FieldSamples& samples, std::size_t at, const sdf::FieldRay& ray,
                      const sdf::SurfaceHit& hit, const glm::dvec4& color) {
         samples.color[at] = color;
         samples.evaluations[at] = hit.evaluations, samples.iterations[at] = hit.iterations;
-        samples.depth[at] = hit.hit ? hit.t : HUGE_VAL;
-        samples.surface[at] = hit.hit ? hit.material : kNone;
-        samples.normal[at] = glm::vec3(0.0f), samples.residual[at] = 0.0f;
-        if (!hit.hit) return;
-        const bool away = glm::dot(hit.normal_world, ray.direction_world) > 0.0;
-        samples.normal[at] = glm::vec3(away ? -hit.normal_world : hit.normal_world);
-        samples.residual[at] = static_cast<float>(hit.value);
+        samples.take(at, ray, hit);
+        if (hit.hit) samples.residual[at] = static_cast<float>(hit.value);
     }
 
     double deviceSeconds() const {
