@@ -1,13 +1,13 @@
 #include "pipeline/methods/cone_x.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
-#include "pipeline/methods/edge_cell.h"
+#include "pipeline/methods/cell_division.h"
 #include "pipeline/methods/light_borders.h"
 #include "pipeline/methods/over_device.h"
 #include "pipeline/methods/pattern_footprint.h"
@@ -164,18 +164,13 @@ class ConeXTracer : public OverDevice {
     }
 
     void divide(std::vector<EdgeCell>& cells) {
-        const EdgeCells dividing(grid_, field_ ? &*field_ : nullptr);
+        const CellDivision dividing(grid_, field_ ? &*field_ : nullptr);
         askSamples(dividing, cells, 1, 1 + EdgeCell::kCorners);
-        eachUnresolved(cells, [&](EdgeCell& cell) { dividing.divideByLines(cell); });
+        eachUnresolved(cells, [&](EdgeCell& cell) { dividing.divide(cell, false); });
         askSamples(dividing, cells, 1 + EdgeCell::kCorners, EdgeCell::kMost);
-        tbb::enumerable_thread_specific<std::size_t> counted(std::size_t(0));
-        eachUnresolved(cells, [&](EdgeCell& cell) {
-            dividing.divideByLines(cell);
-            if (cell.resolved) return;
-            cell.divideByCount();
-            ++counted.local();
-        });
-        for (const std::size_t part : counted) counted_ += part;
+        eachUnresolved(cells, [&](EdgeCell& cell) { dividing.divide(cell, true); });
+        counted_ += static_cast<std::uint64_t>(
+            std::ranges::count_if(cells, [](const EdgeCell& cell) { return cell.counted; }));
     }
 
     template <class Work>
@@ -192,7 +187,7 @@ class ConeXTracer : public OverDevice {
     }
 
     /// Of unresolved cells: where samples first to last meet what, and pieces for what is on none.
-    void askSamples(const EdgeCells& dividing, std::vector<EdgeCell>& cells, int first, int last) {
+    void askSamples(const CellDivision& dividing, std::vector<EdgeCell>& cells, int first, int last) {
         std::vector<EdgeCell*> asked;
         for (EdgeCell& cell : cells)
             if (!cell.resolved) asked.push_back(&cell);
@@ -214,7 +209,7 @@ class ConeXTracer : public OverDevice {
     }
 
     /// One more piece for each cell that needs one; those are asked again.
-    void nameSamples(const EdgeCells& dividing, std::vector<EdgeCell*>& asked) {
+    void nameSamples(const CellDivision& dividing, std::vector<EdgeCell*>& asked) {
         std::vector<int> stranger(asked.size(), EdgeCell::kUnknown);
         tbb::parallel_for(std::size_t(0), asked.size(), [&](std::size_t i) {
             EdgeCell& cell = *asked[i];

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/methods/edge_cell.h"
+#include "sdf/film_line.h"
 
 namespace edgewise {
 namespace {
