@@ -10,6 +10,8 @@ namespace edgewise::sdf {
 namespace {
 
 constexpr int kMostSteps = 16;
+/// A gradient takes as long as about so many values.
+constexpr std::uint32_t kPassesOfGradient = 3;
 /// Of a pixel's radius: how much nearer the ray may come elsewhere.
 constexpr double kSettled = 1.0 / 64.0;
 /// Of a pixel's radius: shorter steps tell little of how the growth changes.
@@ -76,12 +78,15 @@ class GrowthRoot {
 }  // namespace
 
 std::optional<ClosestApproach> closestApproach(const CellTapes& cells, const FieldRay& ray, double t_start) {
-    GrowthRoot root(ray.pixel_radius + ray.pixel_slope * t_start);
+    const double radius = ray.pixel_radius + ray.pixel_slope * t_start;
+    GrowthRoot root(radius);
+    PruneCounts counts;
     const TapeCell* cell = nullptr;
     double t = t_start;
     for (int step = 0; step < kMostSteps; ++step) {
         const glm::dvec3 p = ray.origin_world + ray.direction_world * t;
-        cell = &cells.at(p, cell);
+        cell = &cells.at(p, cell, radius, counts);
+        cells.ran(*cell, kPassesOfGradient);
         const ValueAndGradient at = gradientAt(cell->tape, p);
         const double slope = glm::length(at.gradient);
         if (!(at.value > 0.0)) {

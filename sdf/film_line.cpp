@@ -82,6 +82,16 @@ std::vector<glm::dvec2> within(std::span<const glm::dvec2> polygon, const FilmLi
     return inner;
 }
 
+/// On the same side of all edges, whichever way they turn.
+bool holds(std::span<const glm::dvec2> polygon, const glm::dvec2& p) {
+    bool left = false, right = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const double side = cross(polygon[(i + 1) % polygon.size()] - polygon[i], p - polygon[i]);
+        left |= side > 0.0, right |= side < 0.0;
+    }
+    return polygon.size() > 2 && !(left && right);
+}
+
 /// From the first corner, so that far polygons cancel nothing.
 double areaOf(std::span<const glm::dvec2> polygon) {
     double twice = 0.0;

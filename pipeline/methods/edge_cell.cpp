@@ -21,7 +21,8 @@ CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px) {
     piece.seen_px = seen_px;
     piece.sky = hit == nullptr;
     if (!hit) return piece;
-    piece.p_world = hit->p_world, piece.n_world = hit->normal_world, piece.material = hit->material;
+    piece.p_world = hit->p_world - hit->normal_world * hit->height;
+    piece.n_world = hit->normal_world, piece.material = hit->material;
     return piece;
 }
 

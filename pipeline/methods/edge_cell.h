@@ -19,9 +19,11 @@ struct CellPiece {
         0.0;  ///< the change of the normal per unit of length, as far as neighbours on the surface tell
     std::optional<sdf::SurfaceHit> hit;  ///< met within this pixel, along the ray through seen_px
     double weight = 0.0;                 ///< the area of its parts
+    std::uint32_t shade = kUnshaded;     ///< of what is shaded: its place
+    static constexpr std::uint32_t kUnshaded = 0xffffffffu;
 };
 
-/// The plane of a hit, and sky for a miss.
+/// The plane of the surface that a hit lies above, and sky for a miss.
 CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px);
 /// Whether both are parts of one smooth surface: their planes are one within a quarter of the pixel's radius
 /// there.
