@@ -40,6 +40,12 @@ std::vector<int> labelsOf(const EdgeCell& cell, const SampleSet& samples) {
     return seen;
 }
 
+/// Whether each of two planes lies below the other, where it was met.
+bool edgeSticksOut(const CellPiece& a, const CellPiece& b, double sign) {
+    const glm::dvec3 apart = b.p_world - a.p_world;
+    return sign * glm::dot(apart, a.n_world) < 0.0 && sign * glm::dot(apart, b.n_world) > 0.0;
+}
+
 }  // namespace
 
 /// One cell's division.
@@ -156,16 +162,22 @@ int CellDivision::labelOf(const EdgeCell& cell, int i, double depth) const {
     const sdf::FieldRay ray = rayOf(cell.sampleAt(i));
     const glm::dvec3 p =
         std::isfinite(depth) ? ray.origin_world + ray.direction_world * depth : glm::dvec3(0.0);
+    const double slack = kOnPlane * radiusAt(ray, depth);
     int label = EdgeCell::kUnknown;
-    double least = HUGE_VAL;
+    double height = 0.0;
     for (int k = 0; k < static_cast<int>(cell.pieces.size()); ++k) {
         const CellPiece& piece = cell.pieces[k];
         if (piece.sky != !std::isfinite(depth)) continue;
         if (piece.sky) return k;
-        const double off = offPlane(piece, p), apart = glm::distance(p, piece.p_world);
-        if (off > kOnPlane * radiusAt(ray, depth) + 0.5 * piece.bend * apart * apart || off >= least)
+        const double above = cell.sign * glm::dot(p - piece.p_world, piece.n_world);
+        const double apart = glm::distance(p, piece.p_world);
+        if (std::abs(above) > slack + 0.5 * piece.bend * apart * apart) continue;
+        // Where two planes meet in an edge that sticks out, the surface is the lower one of the two: the point
+        // is higher above its own.
+        const bool higher = label != EdgeCell::kUnknown && edgeSticksOut(cell.pieces[label], piece, cell.sign);
+        if (label != EdgeCell::kUnknown && (higher ? above <= height : std::abs(above) >= std::abs(height)))
             continue;
-        least = off, label = k;
+        height = above, label = k;
     }
     return label;
 }

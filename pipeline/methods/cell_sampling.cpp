@@ -55,20 +55,22 @@ void CellSampling::divide(const ConeRows& rows, std::vector<EdgeCell>& cells) {
     divideAll(true);
 }
 
-/// A corner is asked once for all pixels that it belongs to. Its ray lies in all their cones.
+/// A corner is asked once for all pixels that it belongs to. Its ray lies in the cones of all four, doubtful or
+/// not, and begins where the last of them does.
 void CellSampling::askCorners(const ConeRows& rows, std::vector<EdgeCell>& cells) {
     Corners corners(rows);
     std::vector<sdf::TravellingRay> rays;
     for (const EdgeCell& cell : cells)
         for (int k = 1; k <= EdgeCell::kCorners; ++k) {
             std::uint32_t& corner = corners.of(cell, k);
-            const sdf::TravellingRay ray = rayOf(cell, k);
-            if (corner == Corners::kNone) {
-                corner = static_cast<std::uint32_t>(rays.size());
-                rays.push_back(ray);
-            } else if (ray.ray.t_min > rays[corner].ray.t_min) {
-                rays[corner] = ray;
-            }
+            if (corner != Corners::kNone) continue;
+            corner = static_cast<std::uint32_t>(rays.size());
+            EdgeCell all = {};
+            all.sign = cell.sign;
+            const std::size_t left = cell.pixel - (k & 1 ? 0 : 1), above = left - (k & 2 ? 0 : rows.width());
+            for (const std::size_t i : {above, above + 1, above + rows.width(), above + rows.width() + 1})
+                all.t_start = std::max(all.t_start, rows.startOf(i, grid_.t_max));
+            rays.push_back(rayFrom(grid_, all, cell.sampleAt(k)));
         }
     const std::vector<double> depths = device_.batches().depths(rays);
     rays_ += rays.size();

@@ -32,7 +32,7 @@ std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i, double
     if (own) cell.pieces.front().hit = *own;
     cell.depths[0] = own ? own->t : HUGE_VAL;
     const std::uint32_t first = rows.cones.begin[i];
-    cell.t_start = first < rows.cones.begin[i + 1] ? rows.cones.groups[first].entry : t_max;
+    cell.t_start = rows.startOf(i, t_max);
     if (rows.soft[i]) cell.soft_t = rows.cones.groups[first].entry;
     for (const CellPiece& other : others)
         if (std::ranges::none_of(cell.pieces,

@@ -29,6 +29,11 @@ struct ConeRows {
     const sdf::SurfaceHit* hitOf(std::size_t pixel) const {
         return hard[pixel] == kNoGroup ? nullptr : &cones.surfaces[hard[pixel]];
     }
+    /// No surface lies before it in the pixel.
+    double startOf(std::size_t pixel, double t_max) const {
+        const std::uint32_t first = cones.begin[pixel];
+        return first < cones.begin[pixel + 1] ? cones.groups[first].entry : t_max;
+    }
     double radiusOf(std::size_t pixel) const {
         const sdf::SurfaceHit* hit = hitOf(pixel);
         const sdf::FieldRay& ray = cones.rays[pixel].ray;

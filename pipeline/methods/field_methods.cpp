@@ -118,7 +118,7 @@ MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTra
     const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
     FieldSettings settings;
     settings.cones.emplace();
-    settings.cones->relaxed = true;
+    settings.cones->relaxed = settings.cones->hard_only = true;
     // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
     settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
     return tracePixels(all, settings, coneXMaker(make));
