@@ -172,9 +172,10 @@ int CellDivision::labelOf(const EdgeCell& cell, int i, double depth) const {
         const double above = cell.sign * glm::dot(p - piece.p_world, piece.n_world);
         const double apart = glm::distance(p, piece.p_world);
         if (std::abs(above) > slack + 0.5 * piece.bend * apart * apart) continue;
-        // Where two planes meet in an edge that sticks out, the surface is the lower one of the two: the point
-        // is higher above its own.
-        const bool higher = label != EdgeCell::kUnknown && edgeSticksOut(cell.pieces[label], piece, cell.sign);
+        // Where two planes meet in an edge that sticks out, the surface is the lower one of the two: the
+        // point is higher above its own.
+        const bool higher =
+            label != EdgeCell::kUnknown && edgeSticksOut(cell.pieces[label], piece, cell.sign);
         if (label != EdgeCell::kUnknown && (higher ? above <= height : std::abs(above) >= std::abs(height)))
             continue;
         height = above, label = k;

@@ -55,8 +55,8 @@ void CellSampling::divide(const ConeRows& rows, std::vector<EdgeCell>& cells) {
     divideAll(true);
 }
 
-/// A corner is asked once for all pixels that it belongs to. Its ray lies in the cones of all four, doubtful or
-/// not, and begins where the last of them does.
+/// A corner is asked once for all pixels that it belongs to. Its ray lies in the cones of all four, doubtful
+/// or not, and begins where the last of them does.
 void CellSampling::askCorners(const ConeRows& rows, std::vector<EdgeCell>& cells) {
     Corners corners(rows);
     std::vector<sdf::TravellingRay> rays;

@@ -119,6 +119,8 @@ MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTra
     FieldSettings settings;
     settings.cones.emplace();
     settings.cones->relaxed = settings.cones->hard_only = true;
+    // Hits float over surfaces, and the borders of their light with them: no more than outlines are off.
+    settings.trace.threshold = 1.0 / 64.0;
     // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
     settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
     return tracePixels(all, settings, coneXMaker(make));
