@@ -9,17 +9,22 @@
 namespace edgewise::figures {
 namespace {
 
+std::string imageHtml(const PictureRow::Picture& picture, bool linked) {
+    const std::string alt = escapedHtml(picture.caption), file = escapedHtml(picture.file.name);
+    if (linked)
+        return fmt::format("<a href='{0}'><img alt='{1}' src='{0}' style='image-rendering:auto'></a>", file,
+                           alt);
+    const std::string& bytes = picture.file.bytes;
+    return fmt::format("<img alt='{}' src='data:image/png;base64,{}'>", alt,
+                       compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
+}
+
 std::string rowHtml(const PictureRow& row) {
     std::string out = fmt::format("<h3>{}</h3><p class='under'>{}</p><div class='pictures'>",
                                   escapedHtml(row.title), escapedHtml(row.words));
-    for (const PictureRow::Picture& picture : row.pictures) {
-        const std::string& bytes = picture.file.bytes;
-        out += fmt::format(
-            "<figure class='card'><img alt='{0}' "
-            "src='data:image/png;base64,{1}'><figcaption>{0}</figcaption></figure>\n",
-            escapedHtml(picture.caption),
-            compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
-    }
+    for (const PictureRow::Picture& picture : row.pictures)
+        out += fmt::format("<figure class='card'>{}<figcaption>{}</figcaption></figure>\n",
+                           imageHtml(picture, row.linked), escapedHtml(picture.caption));
     return out + "</div>";
 }
 

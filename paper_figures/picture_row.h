@@ -18,6 +18,7 @@ struct PictureRow {
         std::string caption;
     };
     std::vector<Picture> pictures;
+    bool linked = false;  ///< large ones: the page refers to their files and shows them smoothly
 };
 
 /// The picture as NAME.png, each of its pixels `times` as large.

@@ -4,6 +4,14 @@ namespace edgewise::figures {
 
 const std::vector<Figure>& figureRegistry() {
     static const std::vector<Figure> figures{
+        {"nsaa-1", "NSAA, Figure 1", "multisampling and the exact integral on one pixel", makeNsaaPixel},
+        {"nsaa-2", "NSAA, Figure 2", "the pipeline with its intermediate buffers", makeNsaaStages},
+        {"nsaa-3", "NSAA, Figure 3", "conservative area, thickening and clipping box", makeNsaaGather},
+        {"nsaa-4", "NSAA, Figure 4", "the zone plate by nsaa, multisampling and smaa", makeNsaaZonePlate},
+        {"nsaa-5", "NSAA, Figure 5", "the log grid, likewise", makeNsaaLogGrid},
+        {"nsaa-6", "NSAA, Figure 6", "disk, cone and Gaussian of radius 2 beside csaa", makeNsaaFilters},
+        {"nsaa-7", "NSAA, Figure 7", "a sequence of tori, textured and lit", makeNsaaTori},
+        {"nsaa-times", "NSAA, section 4.3", "shares of time, and memory", makeNsaaTimes},
         {"filter-study", "NSAA, Figure 6, continued",
          "frequency response, ringing, blur and aliasing of every filter", makeFilterStudy},
         {"performance", "ours", "time against error, growth, stages and the distance to the ideal",
