@@ -9,8 +9,10 @@
 namespace edgewise::figures {
 namespace {
 
+/// Words have no unit.
 std::string withUnit(const std::string& number, const std::string& unit) {
-    return number.empty() || unit.empty() ? number : number + " " + unit;
+    const bool ends_in_digit = !number.empty() && number.back() >= '0' && number.back() <= '9';
+    return ends_in_digit && !unit.empty() ? number + " " + unit : number;
 }
 
 std::string words(const std::string& text) {

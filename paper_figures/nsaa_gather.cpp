@@ -60,7 +60,7 @@ void drawArea(Drawing& drawing) {
         drawing.circle(at(0, middle), 3, "fill='#b3261e'");
     }
     drawing.text(at(0, {7.6, 8.9}), "P_proj", "fill='#fff' font-weight='bold'");
-    drawing.text(at(0, {11.2, 5.4}), "P_cons", "fill='#1b6ca8' font-weight='bold'");
+    drawing.text(at(0, {15.9, 8.4}), "P_cons", "fill='#1b6ca8' font-weight='bold'");
 }
 
 /// (b): r, h and the scaled triangle.

@@ -141,8 +141,8 @@ std::string drawn(const std::vector<PixelShare>& shares) {
                  fmt::format("{:.0f} of {} = {:.4f}", kDrawnSamples * by_samples, kDrawnSamples, by_samples),
                  "font-size='15'");
     drawing.text({400, 412},
-                 fmt::format("gaussian, R 2: {:.10f};  box of the pixel: {:.10f}",
-                             weightOf("nsaa", "gaussian"), weightOf("nsaa", "box")),
+                 fmt::format("gaussian, R 2: {:.8f}; box of the pixel: {:.8f}", weightOf("nsaa", "gaussian"),
+                             weightOf("nsaa", "box")),
                  "font-size='13'");
     return drawing.svg();
 }
@@ -204,7 +204,8 @@ std::vector<FigureFile> makeNsaaPixel(const FigureInput& input) {
         "nsaa-1",
         "Multisampling and the exact integral",
         "After NSAA's Figure 1. A blue triangle is partly hidden by a brown one. Sampling counts "
-        "hits, so its answers are multiples of 1/N; the integral has one answer a kernel. Numbers "
+        "hits, so its answers are quotients of small numbers (csaa:32 divides by the samples that have a "
+        "colour); the integral has one answer a kernel. Numbers "
         "are the program's own: methods render the pixel, nsaa's weights are those of `edgewise "
         "weights`.",
         {},

@@ -23,7 +23,9 @@ namespace edgewise::figures {
 namespace {
 
 constexpr const char* kScene = "torus-sequence";
-constexpr int kWidth = 256, kHeight = 128;  ///< px; small enough to see single pixels
+/// The rim of the nearest torus's hole, so large that triangles can be told apart.
+constexpr int kFilmWidth = 4096, kFilmHeight = 2048;
+constexpr PixelBox kCrop{420, 1150, 676, 1278};
 constexpr const char* kGather = "#3a7d44";
 constexpr const char* kWeigh = "#b3261e";
 constexpr const char* kBlend = "#1b6ca8";
@@ -55,7 +57,7 @@ std::vector<double> column(const std::string& csv, int index) {
 /// A linear buffer's entries, row by row, as many as there are pixels.
 template <class Color>
 std::string bufferPng(const std::string& name, std::size_t entries, const Color& color) {
-    ImageBuffer image({0, 0, kWidth, kHeight});
+    ImageBuffer image(kCrop);
     for (std::size_t i = 0; i < image.rgba.size(); ++i)
         image.rgba[i] = glm::dvec4(i < entries ? color(i) : glm::dvec3(0.0), 1.0);
     return pictureOf(image, name, "").file.bytes;
@@ -69,7 +71,7 @@ glm::dvec3 colorOfId(double id) {
 
 /// Edges of all triangles that face the eye, hidden or not.
 std::string edgesPng(const ScreenScene& screen) {
-    ImageBuffer image({0, 0, kWidth, kHeight});
+    ImageBuffer image(kCrop);
     for (glm::dvec4& p : image.rgba) p = glm::dvec4(0.0, 0.0, 0.0, 1.0);
     for (const ScreenTriangle& t : screen.triangles)
         for (int i = 0; i < 3; ++i) {
@@ -78,7 +80,7 @@ std::string edgesPng(const ScreenScene& screen) {
             for (int k = 0; k <= steps; ++k) {
                 const glm::ivec2 p(glm::floor(a + d * (double(k) / steps)));
                 if (image.box.contains(p.x, p.y))
-                    image.rgba[image.index(p.x, p.y)] += glm::dvec4(glm::dvec3(0.04), 0.0);
+                    image.rgba[image.index(p.x, p.y)] += glm::dvec4(glm::dvec3(0.35), 0.0);
             }
         }
     return pictureOf(image, "triangles", "").file.bytes;
@@ -99,8 +101,9 @@ Pipeline pipelineOf(Progress& progress) {
     const Scene scene = loadScene(findScene(kScene));
     Film film;
     CameraOptions options;
-    options.size = {kWidth, kHeight};
+    options.size = {kFilmWidth, kFilmHeight};
     const ResolvedCamera camera = resolveCamera(scene, options, film);
+    film.crop = kCrop;
     const TemporaryFolder folder;
     RenderOptions making;
     making.device = DeviceChoice::kCpu, making.dump_dir = folder.path();
@@ -118,7 +121,7 @@ Pipeline pipelineOf(Progress& progress) {
     out.segments = column(file("segments.csv"), 0).size(), out.pairs = owners.size();
     for (const double count : counts) out.ids += static_cast<std::size_t>(count);
 
-    ImageBuffer offset_picture({0, 0, kWidth, kHeight});
+    ImageBuffer offset_picture(kCrop);
     for (std::size_t i = 0; i < offsets.size(); ++i)
         for (int y = int(ys[i]); y < int(ys[i]) + 16; ++y)
             for (int x = int(xs[i]); x < int(xs[i]) + 16; ++x)
@@ -133,8 +136,8 @@ Pipeline pipelineOf(Progress& progress) {
          file("gather.png")},
         {2, 0, kGather, "scan", "list offsets: darker is earlier", "offsets",
          pictureOf(offset_picture, "offsets", "").file.bytes},
-        {3, 0, kGather, "2. fill", fmt::format("weighed ids: one colour an owner, {} entries", out.pairs),
-         "ids", bufferPng("ids", owners.size(), [&](std::size_t i) { return colorOfId(owners[i]); })},
+        {3, 0, kGather, "2. fill", fmt::format("ids: a colour an owner, {} entries", out.pairs), "ids",
+         bufferPng("ids", owners.size(), [&](std::size_t i) { return colorOfId(owners[i]); })},
         {1, 1, kWeigh, "analytic visibility",
          fmt::format("{} visible segments over the owners", out.segments), "segments", file("segments.png")},
         {2, 1, kWeigh, "prefilter", "owners a pixel", "owners", file("weights.png")},
@@ -158,8 +161,8 @@ std::string drawn(const Pipeline& pipeline) {
         const char* colors[]{kGather, kWeigh, kBlend};
         drawing.rectangle({kStepX + 4, 6 + kStepY * row}, {3 * kStepX - 4, kStepY - 8},
                           fmt::format("fill='{0}' fill-opacity='0.07' stroke='{0}' rx='6'", colors[row]));
-        drawing.text({4 * kStepX - 10, 20 + kStepY * row}, names[row],
-                     fmt::format("text-anchor='end' font-weight='bold' fill='{}'", colors[row]));
+        drawing.text({kStepX + 14, 22 + kStepY * row}, names[row],
+                     fmt::format("font-weight='bold' fill='{}'", colors[row]));
     }
     for (const StagePanel& panel : pipeline.panels) {
         const glm::dvec2 corner = cornerOf(panel), size(kPanelWidth, kPanelHeight);
@@ -212,12 +215,15 @@ std::vector<FigureFile> makeNsaaStages(const FigureInput& input) {
         "visibility "
         "gives each primitive its own closed boundary; here a segment lies between two owners.",
         {{"scene", kScene},
-         {"size", fmt::format("{}x{}", kWidth, kHeight)},
+         {"size", fmt::format("{}x{}, of which pixels {} to {} across and {} to {} down", kFilmWidth,
+                              kFilmHeight, kCrop.x0, kCrop.x1, kCrop.y0, kCrop.y1)},
          {"filter", "gaussian, R 2, sigma R/3"},
          {"device", "cpu"},
          {"seed", "none"}},
-        {fmt::format("edgewise render {} --size {}x{} --device cpu --dump-stages stages -o image.png", kScene,
-                     kWidth, kHeight)},
+        {fmt::format(
+            "edgewise render {} --size {}x{} --crop {},{},{},{} --device cpu --dump-stages stages -o "
+            "image.png",
+            kScene, kFilmWidth, kFilmHeight, kCrop.x0, kCrop.y0, kCrop.x1, kCrop.y1)},
         input.quick};
     const std::string csv = fmt::format(
         "buffer,entries\ntriangles,{}\nscreen_triangles,{}\ncell_ids,{}\nvisible_segments,{}\nweights,{}\n",

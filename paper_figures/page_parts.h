@@ -12,6 +12,7 @@ inline constexpr const char* kPageStyle = R"css(
 .pictures figure{margin:0}
 .pictures img{width:100%;image-rendering:pixelated}
 .pictures figcaption{font-size:13px}
+th{white-space:normal}
 p.under{font-size:13px;color:#444;margin:8px 0 0}
 )css";
 

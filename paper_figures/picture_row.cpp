@@ -12,8 +12,9 @@ namespace {
 std::string imageHtml(const PictureRow::Picture& picture, bool linked) {
     const std::string alt = escapedHtml(picture.caption), file = escapedHtml(picture.file.name);
     if (linked)
-        return fmt::format("<a href='{0}'><img alt='{1}' src='{0}' style='image-rendering:auto'></a>", file,
-                           alt);
+        return fmt::format(
+            "<a href='{0}'><img alt='{1}' src='{0}' style='display:block;image-rendering:auto'></a>", file,
+            alt);
     const std::string& bytes = picture.file.bytes;
     return fmt::format("<img alt='{}' src='data:image/png;base64,{}'>", alt,
                        compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));

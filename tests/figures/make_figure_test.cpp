@@ -118,15 +118,17 @@ TEST_F(MakeFigure, FailuresSaySoAndLeaveTheFolder) {
 TEST(IndexPage, ShowsPagesFailuresAndClaims) {
     const Figure bad{"bad", "a paper", "what", makeFailure};
     MadeFigure made{&kGood, "good/report.html", ""};
-    made.claims = {{"Table 1", "a <ratio>", "1.30", "1.2\"5", "ms", "other, machine"}};
+    made.claims = {{"Table 1", "a <ratio>", "1.30", "1.2\"5", "ms", "other, machine"},
+                   {"Table 2", "speed", "near-interactive", "7", "1/s", ""}};
     const std::vector<MadeFigure> all{made, {&bad, "", "device: <none>"}};
     const std::string html = indexHtml(all);
     for (const char* part : {"href='good/report.html'", "device: &lt;none&gt;", "a &lt;ratio&gt;", "1.30 ms",
-                             "1.2&quot;5 ms", "other, machine"})
+                             "1.2&quot;5 ms", "other, machine", "near-interactive<", "7 1/s"})
         EXPECT_NE(html.find(part), std::string::npos) << part;
     EXPECT_EQ(indexCsv(all),
               "figure,of,place,claim,paper,ours,unit,why\n"
-              "good,a paper,Table 1,a <ratio>,1.30,\"1.2\"\"5\",ms,\"other, machine\"\n");
+              "good,a paper,Table 1,a <ratio>,1.30,\"1.2\"\"5\",ms,\"other, machine\"\n"
+              "good,a paper,Table 2,speed,near-interactive,7,1/s,\n");
 }
 
 }  // namespace
