@@ -52,5 +52,8 @@ std::vector<FigureFile> makeNsaaLogGrid(const FigureInput& input);
 std::vector<FigureFile> makeNsaaFilters(const FigureInput& input);
 std::vector<FigureFile> makeNsaaTori(const FigureInput& input);
 std::vector<FigureFile> makeNsaaTimes(const FigureInput& input);
+std::vector<FigureFile> makeSphereDrawn(const FigureInput& input);
+std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
+std::vector<FigureFile> makeLottes(const FigureInput& input);
 
 }  // namespace edgewise::figures

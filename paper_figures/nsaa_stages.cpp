@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kScene = "torus-sequence";
 /// The rim of the nearest torus's hole, so large that triangles can be told apart.
 constexpr int kFilmWidth = 4096, kFilmHeight = 2048;
-constexpr PixelBox kCrop{420, 1150, 676, 1278};
+constexpr PixelBox kCrop{270, 1150, 526, 1278};
 constexpr const char* kGather = "#3a7d44";
 constexpr const char* kWeigh = "#b3261e";
 constexpr const char* kBlend = "#1b6ca8";

@@ -18,6 +18,12 @@ const std::vector<Figure>& figureRegistry() {
          makePerformance},
         {"sphere-tracing", "Enhanced sphere tracing, sections 3 and 4",
          "what relaxation, cones, pruning and Keinert's other enhancements save", makeSphereTracing},
+        {"sphere-drawn", "Enhanced sphere tracing, Figures 2 to 6", "rays drawn step by step",
+         makeSphereDrawn},
+        {"sphere-scenes", "Enhanced sphere tracing, Figures 1, 10 and 11", "scenes of those kinds",
+         makeSphereScenes},
+        {"lottes", "Lottes' sphere tracing antialiasing", "frame by frame and averaged, with the 11 rays",
+         makeLottes},
         {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
          "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
     };
