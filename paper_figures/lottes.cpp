@@ -42,9 +42,12 @@ FigurePlot patternPlot(const LottesStudy& found) {
         const double share = sum > 0.0 ? w.f * w.ray.coverage / sum : 0.0;
         drawing.circle(at(w.ray.p_px), 3.0 + 50.0 * std::sqrt(share),
                        fmt::format("fill='{}' stroke='#222'", hexOf(w.ray.color)));
-        drawing.text(at(w.pixel) + glm::dvec2(6, 94),
-                     fmt::format("cov {:.2f}, {:.1f} %", w.ray.coverage, 100 * share), "font-size='11'");
     }
+    for (const LottesWeight& w : found.rays)
+        drawing.text(at(w.pixel) + glm::dvec2(6, 94),
+                     fmt::format("cov {:.2f}, {:.1f} %", w.ray.coverage,
+                                 sum > 0.0 ? 100 * w.f * w.ray.coverage / sum : 0.0),
+                     "font-size='11'");
     drawing.circle(at(glm::dvec2(found.pixel) + 0.5), 4, "fill='#d7263d' stroke='#fff'");
     drawing.rectangle(at(found.pixel), glm::dvec2(kPx), "fill='none' stroke='#d7263d' stroke-width='2.5'");
     drawing.text({560, 50}, fmt::format("pixel ({}, {}), frame 0", found.pixel.x, found.pixel.y),
@@ -63,7 +66,7 @@ FigurePlot patternPlot(const LottesStudy& found) {
 FigurePlot framesPlot(const LottesStudy& found) {
     LinePlot plot{"Error and deviation by frames",
                   {0.9, 1.1 * found.effort.frames, 0.0, "frames", true},
-                  {1e-4, 1.0, 0.0, "RMS, linear RGB", true},
+                  {1e-3, 1.0, 0.0, "RMS, linear RGB", true},
                   {},
                   {}};
     PlotCurve error{"against the reference", kPlotColors[0], false, false, {}, {}},
@@ -83,7 +86,6 @@ FigurePlot framesPlot(const LottesStudy& found) {
             linePlotSvg(plot)};
 }
 
-/// The repeated wires of the scene, where there are most.
 ImageBuffer partOf(const ImageBuffer& image, const PixelBox& box) {
     ImageBuffer part(box);
     for (int y = box.y0; y < box.y1; ++y)

@@ -25,9 +25,9 @@ struct DrawnMarch {
     March march;
 };
 
-/// Two balls beside the ray, and one that it meets.
+/// A ground that the ray runs along, as nearly a plane, a ball above, and one that it meets.
 sdf::Tape wayField() {
-    return ballsField({{{2.3, -1.35}, 0.75}, {{4.9, 1.5}, 0.9}, {{9.3, -0.55}, 1.1}});
+    return ballsField({{{4.0, -30.62}, 30.0}, {{5.6, 1.75}, 0.9}, {{9.3, -0.2}, 1.0}});
 }
 const SliceRay kWay{{0.0, 0.0}, {1.0, 0.0}, 0.05, 20.0, 0.004, 1.0};
 
@@ -85,7 +85,7 @@ const SliceRay kGrazing{{0.0, 0.0}, {1.0, 0.0}, 0.05, 20.0, 0.0021, 1.0};
 
 FigurePlot candidatePlot(const March& march) {
     Drawing drawing(760, 250, "Which point of a ray that is out of steps is the hit");
-    const SlicePanel panel{{10, 8}, {740, 230}, {-0.2, -1.7}, 96};
+    const SlicePanel panel{{10, 8}, {740, 230}, {-0.2, -1.25}, 96};
     drawing.beginClip(panel.corner, panel.size);
     drawSolid(panel, grazedField(), drawing);
     for (const MarchStep& step : march.steps) {
@@ -98,7 +98,7 @@ FigurePlot candidatePlot(const March& march) {
     drawRay(panel, kGrazing, march.t, drawing);
     drawing.text(panel.at(kGrazing.at(march.candidate_t)) + glm::dvec2(-30, -20), "candidate",
                  fmt::format("fill='{}'", kRelaxed));
-    drawing.text(panel.at(kGrazing.at(march.t)) + glm::dvec2(-30, -60), "last point", "fill='#8a6800'");
+    drawing.text(panel.at(kGrazing.at(march.t)) + glm::dvec2(-30, -38), "last point", "fill='#8a6800'");
     drawing.endClip();
     drawing.rectangle(panel.corner, panel.size, "fill='none' stroke='#999'");
     return {
@@ -263,7 +263,7 @@ std::vector<FigureFile> makeSphereDrawn(const FigureInput& input) {
     input.claims.push_back(
         {"Figure 3", "iterations of the drawn ray, classic and over-relaxed by 1.6", "fewer",
          fmt::format("{} and {}", marches[0].march.steps.size(), marches[1].march.steps.size()), "",
-         "a ray of our own: the paper's is not published"});
+         "a ray of our own along a ground: the paper's is not published"});
     input.claims.push_back(
         {"Figure 6", "iterations from within: marched through, and back from the ball", "far fewer",
          fmt::format("{} and {}", convex[3].march.steps.size(), convex[2].march.steps.size()), "",

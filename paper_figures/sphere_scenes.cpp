@@ -5,6 +5,7 @@
 #include "paper_figures/page_parts.h"
 #include "paper_figures/picture_row.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/stopwatch.h"
 
 namespace edgewise::figures {
 namespace {
@@ -28,6 +29,7 @@ class Maker {
     int width() const { return input_.quick ? 160 : 1280; }
     int height() const { return input_.quick ? 90 : 720; }
     const std::vector<std::string>& commands() const { return commands_; }
+    const std::string& csv() const { return csv_; }
 
   private:
     ImageBuffer made(const ScenePicture& picture, const std::optional<PixelBox>& box) {
@@ -36,13 +38,17 @@ class Maker {
         if (box) view.film.crop = *box;
         commands_.push_back(fmt::format("edgewise render {} --size {}x{} --method {} -o {}.png",
                                         picture.scene, width(), height(), picture.method, picture.name));
-        const ImageBuffer image = view.made(picture.method, input_.progress).image;
+        Stopwatch watch;
+        MethodResult made = view.made(picture.method, input_.progress);
+        csv_ += fmt::format("{},{},\"{}\",{},{},{:.6f}\n", picture.name, picture.scene, picture.method,
+                            view.film.crop.width(), view.film.crop.height(), watch.lap());
         input_.progress.advance(1);
-        return image;
+        return std::move(made.image);
     }
 
     const FigureInput& input_;
     std::vector<std::string> commands_;
+    std::string csv_ = "picture,scene,method,width,height,seconds\n";
 };
 
 /// A part of the blob where its texture lies steep to the rays.
@@ -95,7 +101,8 @@ std::vector<FigureFile> makeSphereScenes(const FigureInput& input) {
          {"seed", "0 (paths)"}},
         maker.commands(),
         input.quick};
-    std::vector<FigureFile> files{{"report.html", figurePage(words, pictureRowsHtml(rows))}};
+    std::vector<FigureFile> files{{"report.html", figurePage(words, pictureRowsHtml(rows))},
+                                  {"results.csv", maker.csv()}};
     appendPictureFiles(rows, files);
     return files;
 }

@@ -8,7 +8,9 @@
 namespace edgewise::figures {
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "edgewise-figure-XXXXXX";
+    std::error_code error;
+    std::string name = std::filesystem::temp_directory_path(error) / "edgewise-figure-XXXXXX";
+    if (error) throw FailureError("TMPDIR", "no folder for files on their way: " + error.message());
     if (!mkdtemp(name.data())) throw FailureError(name, "no folder for files on their way");
     path_ = name;
 }
