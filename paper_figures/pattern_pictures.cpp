@@ -100,16 +100,24 @@ class Maker {
     std::map<std::string, ImageBuffer> references_;
 };
 
+constexpr int kShrunk = 4, kLarge = 512;  ///< px: what is wider is shown smaller
+
 PictureRow wholes(const PatternPlan& plan, const std::vector<PatternRow>& rows) {
+    const bool large = plan.crop.width() >= kLarge;
     PictureRow out{
         fmt::format("{}, {}x{}", plan.scene, plan.crop.width(), plan.crop.height()),
-        "Made smaller by the browser, which aliases and blurs by itself: follow a picture to its own "
-        "pixels.",
+        large ? fmt::format(
+                    "Shown by means of {0} x {0} pixels, linear, which leave of fine rings and cells their "
+                    "grey, and of what aliases to low frequencies all: follow a picture to its own pixels.",
+                    kShrunk)
+              : "A part of the picture.",
         {},
         true};
-    for (const PatternRow& row : rows)
+    for (const PatternRow& row : rows) {
         out.pictures.push_back(
             pictureOf(row.image, plan.scene + "_" + fileNameOf(row.method), row.method.caption));
+        if (large) out.pictures.back().preview = pictureOf(shrunk(row.image, kShrunk), "", "").file.bytes;
+    }
     return out;
 }
 

@@ -9,15 +9,17 @@
 namespace edgewise::figures {
 namespace {
 
+std::string embedded(const std::string& png) {
+    return "data:image/png;base64," +
+           compare::base64({reinterpret_cast<const unsigned char*>(png.data()), png.size()});
+}
+
 std::string imageHtml(const PictureRow::Picture& picture, bool linked) {
     const std::string alt = escapedHtml(picture.caption), file = escapedHtml(picture.file.name);
-    if (linked)
-        return fmt::format(
-            "<a href='{0}'><img alt='{1}' src='{0}' style='display:block;image-rendering:auto'></a>", file,
-            alt);
-    const std::string& bytes = picture.file.bytes;
-    return fmt::format("<img alt='{}' src='data:image/png;base64,{}'>", alt,
-                       compare::base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}));
+    if (!linked && picture.preview.empty())
+        return fmt::format("<img alt='{}' src='{}'>", alt, embedded(picture.file.bytes));
+    return fmt::format("<a href='{}'><img alt='{}' src='{}' style='display:block;image-rendering:auto'></a>",
+                       file, alt, picture.preview.empty() ? file : embedded(picture.preview));
 }
 
 std::string rowHtml(const PictureRow& row) {
@@ -39,6 +41,15 @@ ImageBuffer enlarged(const ImageBuffer& image, int times) {
 }
 
 }  // namespace
+
+ImageBuffer shrunk(const ImageBuffer& image, int times) {
+    ImageBuffer small({0, 0, image.box.width() / times, image.box.height() / times});
+    for (int y = 0; y < small.box.y1 * times; ++y)
+        for (int x = 0; x < small.box.x1 * times; ++x)
+            small.rgba[small.index(x / times, y / times)] +=
+                image.rgba[image.index(image.box.x0 + x, image.box.y0 + y)] / double(times * times);
+    return small;
+}
 
 PictureRow::Picture pictureOf(const ImageBuffer& image, const std::string& name, const std::string& caption,
                               int times) {

@@ -16,10 +16,14 @@ struct PictureRow {
     struct Picture {
         FigureFile file;  ///< PNG
         std::string caption;
+        std::string preview = {};  ///< PNG that the page shows in the file's place, with a link to it
     };
     std::vector<Picture> pictures;
     bool linked = false;  ///< large ones: the page refers to their files and shows them smoothly
 };
+
+/// Means of squares of times x times pixels, linear; what is left over at the right and below is dropped.
+ImageBuffer shrunk(const ImageBuffer& image, int times);
 
 /// The picture as NAME.png, each of its pixels `times` as large.
 PictureRow::Picture pictureOf(const ImageBuffer& image, const std::string& name, const std::string& caption,
