@@ -55,5 +55,6 @@ std::vector<FigureFile> makeNsaaTimes(const FigureInput& input);
 std::vector<FigureFile> makeSphereDrawn(const FigureInput& input);
 std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
 std::vector<FigureFile> makeLottes(const FigureInput& input);
+std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
 
 }  // namespace edgewise::figures

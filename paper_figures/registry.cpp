@@ -24,6 +24,8 @@ const std::vector<Figure>& figureRegistry() {
          makeSphereScenes},
         {"lottes", "Lottes' sphere tracing antialiasing", "frame by frame and averaged, with the 11 rays",
          makeLottes},
+        {"cone-drawn", "Cone-traced supersampling, Figures 2 to 4, 6 and 7", "a cone drawn step by step",
+         makeConeDrawn},
         {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
          "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
     };

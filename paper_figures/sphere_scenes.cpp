@@ -62,8 +62,8 @@ std::vector<PictureRow> picturesOf(Maker& maker, bool quick) {
     PictureRow first{"Scenes of Figure 1", "A jewel, a city, a room by paths.", {}, true};
     first.pictures = {maker.whole({"jewel", "sphere:relax=keinert", "jewel", "jewel, omega 1.2"}),
                       maker.whole({"city", "sphere:relax=keinert", "city", "city, omega 1.2"}),
-                      maker.whole({"path-room", quick ? "path:4" : "path:64", "path_room",
-                                   quick ? "path-room, 4 paths a pixel" : "path-room, 64 paths a pixel"})};
+                      maker.whole({"path-room", quick ? "path:4" : "path:8", "path_room",
+                                   quick ? "path-room, 4 paths a pixel" : "path-room, 8 paths a pixel"})};
     const ScenePicture rough{"blob", "sphere:relax=none,prepass=off,threshold=1", "blob_rough", "as traced"};
     const ScenePicture even{"blob", "sphere:relax=none,prepass=off,threshold=1,discontinuity=3", "blob_even",
                             "after 3 steps of equation 3"};
