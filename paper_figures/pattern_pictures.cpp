@@ -107,8 +107,9 @@ PictureRow wholes(const PatternPlan& plan, const std::vector<PatternRow>& rows) 
     PictureRow out{
         fmt::format("{}, {}x{}", plan.scene, plan.crop.width(), plan.crop.height()),
         large ? fmt::format(
-                    "Shown by means of {0} x {0} pixels, linear, which leave of fine rings and cells their "
-                    "grey, and of what aliases to low frequencies all: follow a picture to its own pixels.",
+                    "Shown {} times smaller, by a Gaussian in linear light that turns fine rings and cells "
+                    "into "
+                    "grey: rings that are left in them are what aliased. Follow a picture to its own pixels.",
                     kShrunk)
               : "A part of the picture.",
         {},

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+
 #include "pipeline/compare/base64.h"
 #include "pipeline/html_text.h"
 #include "pipeline/write_image.h"
@@ -43,11 +47,25 @@ ImageBuffer enlarged(const ImageBuffer& image, int times) {
 }  // namespace
 
 ImageBuffer shrunk(const ImageBuffer& image, int times) {
+    const double sigma = 0.75 * times;
+    const int reach = static_cast<int>(std::ceil(3.0 * sigma));
     ImageBuffer small({0, 0, image.box.width() / times, image.box.height() / times});
-    for (int y = 0; y < small.box.y1 * times; ++y)
-        for (int x = 0; x < small.box.x1 * times; ++x)
-            small.rgba[small.index(x / times, y / times)] +=
-                image.rgba[image.index(image.box.x0 + x, image.box.y0 + y)] / double(times * times);
+    for (int y = 0; y < small.box.y1; ++y)
+        for (int x = 0; x < small.box.x1; ++x) {
+            const glm::dvec2 middle = double(times) * glm::dvec2(x + 0.5, y + 0.5) - 0.5;
+            glm::dvec4 sum(0.0);
+            double weights = 0.0;
+            for (int j = std::max(0, int(middle.y) - reach);
+                 j < std::min(image.box.height(), int(middle.y) + reach); ++j)
+                for (int i = std::max(0, int(middle.x) - reach);
+                     i < std::min(image.box.width(), int(middle.x) + reach); ++i) {
+                    const glm::dvec2 way = glm::dvec2(i, j) - middle;
+                    const double weight = std::exp(-0.5 * (way.x * way.x + way.y * way.y) / (sigma * sigma));
+                    sum += weight * image.rgba[image.index(image.box.x0 + i, image.box.y0 + j)];
+                    weights += weight;
+                }
+            small.rgba[small.index(x, y)] = sum / weights;
+        }
     return small;
 }
 

@@ -22,7 +22,8 @@ struct PictureRow {
     bool linked = false;  ///< large ones: the page refers to their files and shows them smoothly
 };
 
-/// Means of squares of times x times pixels, linear; what is left over at the right and below is dropped.
+/// `times` smaller, by a Gaussian of 3/4 of a new pixel, linear: what the new pixels cannot hold is gone to a
+/// few hundredths.
 ImageBuffer shrunk(const ImageBuffer& image, int times);
 
 /// The picture as NAME.png, each of its pixels `times` as large.
