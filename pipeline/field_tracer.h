@@ -19,6 +19,7 @@ namespace edgewise {
 
 struct FieldSettings {
     sdf::TraceSettings trace;
+    bool keep_parts = false;                 ///< FieldSamples::parts are wanted
     std::optional<sdf::ConeSettings> cones;  ///< for traceCones()
 };
 
@@ -32,6 +33,14 @@ struct FieldWindow {
     std::size_t samples() const { return stride() * pixels.height() * per_side; }
 };
 
+/// A convex polygon of one colour within a pixel.
+struct FilmPart {
+    std::size_t sample = 0;  ///< the pixel's
+    double share = 1.0;      ///< of the polygon that has the colour
+    std::vector<glm::dvec2> polygon_px;
+    glm::dvec4 color{0.0};
+};
+
 /// One entry a sample.
 struct FieldSamples {
     std::vector<glm::dvec4> color;  ///< linear; the background's colour and alpha 0 where nothing is hit
@@ -42,6 +51,7 @@ struct FieldSamples {
     std::vector<float> residual;         ///< the field's value at the hit
     std::vector<std::uint32_t> evaluations, iterations;
     std::vector<std::uint8_t> mixed;  ///< 1: of more than one colour; empty where samples have one each
+    std::vector<FilmPart> parts;      ///< of divided pixels, one pixel after the other; not an entry a sample
 
     /// Of so many samples that hit nothing; `mixed` is empty.
     static FieldSamples sized(std::size_t count);

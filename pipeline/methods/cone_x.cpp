@@ -24,6 +24,7 @@ class ConeXTracer : public OverDevice {
           scene_(*in.scene.field),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
           background_(in.options.background, 0.0),
+          keep_parts_(settings.keep_parts),
           tape_(hasTree() ? loweredTree(scene_) : sdf::Tape()),
           field_(hasTree() ? std::make_unique<sdf::SceneTracer>(scene_, tape_,
                                                                 sdf::trustedSettings(scene_, settings.trace))
@@ -68,17 +69,20 @@ class ConeXTracer : public OverDevice {
         const std::vector<std::size_t> borders = lights.divideOthers(shades, colors);
         watch_.book("lights", stages_);
         keep(window, rows, cells, borders, colors, out);
+        if (keep_parts_) keepParts(window, rows, cells, shades, out);
         watch_.book("blend", stages_);
+    }
+
+    /// A row's pixel in the window.
+    static std::size_t inWindow(const FieldWindow& window, const ConeRows& rows, std::size_t i) {
+        const std::size_t x = i % rows.width() - 1, y = i / rows.width() - 1;
+        return (y + static_cast<std::size_t>(rows.pixels.y0 + 1 - window.pixels.y0)) * window.stride() + x;
     }
 
     void keep(const FieldWindow& window, const ConeRows& rows, const std::vector<EdgeCell>& cells,
               const std::vector<std::size_t>& borders, const std::vector<glm::dvec4>& colors,
               FieldSamples& out) {
-        const PixelBox& box = window.pixels;
-        const auto to = [&](std::size_t i) {
-            const std::size_t x = i % rows.width() - 1, y = i / rows.width() - 1;
-            return (y + static_cast<std::size_t>(rows.pixels.y0 + 1 - box.y0)) * window.stride() + x;
-        };
+        const auto to = [&](std::size_t i) { return inWindow(window, rows, i); };
         for (std::size_t y = 1; y + 1 < static_cast<std::size_t>(rows.pixels.height()); ++y)
             for (std::size_t x = 1; x + 1 < rows.width(); ++x) {
                 const std::size_t i = y * rows.width() + x, k = to(i);
@@ -96,10 +100,23 @@ class ConeXTracer : public OverDevice {
         lights_ += borders.size();
     }
 
+    void keepParts(const FieldWindow& window, const ConeRows& rows, const std::vector<EdgeCell>& cells,
+                   const CellShades& shades, FieldSamples& out) const {
+        for (const EdgeCell& cell : cells) {
+            if (!(cell.pieces.front().weight < 1.0)) continue;
+            for (const CellPart& part : cell.parts) {
+                const std::uint32_t shade = cell.pieces[static_cast<std::size_t>(part.piece)].shade;
+                out.parts.push_back({inWindow(window, rows, cell.pixel), part.share, part.polygon_px,
+                                     shade == kNoGroup ? background_ : shades.colors[shade]});
+            }
+        }
+    }
+
     const MethodInput in_;
     const sdf::FieldScene& scene_;
     const sdf::RayGrid grid_;
     const glm::dvec4 background_;
+    const bool keep_parts_;
     const sdf::Tape tape_;
     const std::unique_ptr<const sdf::SceneTracer> field_;
     CellSampling sampling_;

@@ -8,6 +8,7 @@
 #include "pipeline/methods/color_spread.h"
 #include "pipeline/methods/field_aov.h"
 #include "pipeline/methods/field_pictures.h"
+#include "pipeline/methods/part_filter.h"
 #include "pipeline/methods/sample_weights.h"
 #include "pipeline/methods/stopwatch.h"
 
@@ -64,6 +65,25 @@ class FieldFrame {
             forRows(part, [&](int x, int y) { filterPixel(weights, window, samples, x, y); });
             watch_.book("filter", stages_);
             takeAovs(per_side, part);
+        });
+        return finished();
+    }
+
+    MethodResult parts() {
+        const PartFilter filter(in_.filter);
+        forBands(1, filter.marginPx(), [&](const PixelBox& part) {
+            FieldWindow window;
+            window.pixels = grown(part, filter.marginPx());
+            const FieldSamples samples = tracer_->trace(window);
+            watch_.lap();
+            pictures_.add(window, samples);
+            filter.apply(window, samples, part, result_.image);
+            forRows(part, [&](int x, int y) {
+                const std::size_t i = static_cast<std::size_t>(y - window.pixels.y0) * window.stride() +
+                                      static_cast<std::size_t>(x - window.pixels.x0);
+                if (aov_.active()) aov_.pixel(x, y, samples, i, result_.image);
+            });
+            watch_.book("filter", stages_);
         });
         return finished();
     }
@@ -166,6 +186,10 @@ MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, c
 MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
                            const FieldTracerMaker& make) {
     return FieldFrame(in, settings, make).filtered(per_side);
+}
+
+MethodResult traceParts(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make) {
+    return FieldFrame(in, settings, make).parts();
 }
 
 }  // namespace edgewise

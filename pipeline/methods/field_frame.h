@@ -13,4 +13,8 @@ MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, c
 MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
                            const FieldTracerMaker& make);
 
+/// Pixels whole or in parts (FieldSettings::keep_parts), each weighted by the integral of the filter over it.
+/// `edge`: 1 where the support's differ.
+MethodResult traceParts(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make);
+
 }  // namespace edgewise

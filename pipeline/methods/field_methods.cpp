@@ -113,7 +113,7 @@ MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const Fiel
     return traceFiltered(all, settings, per_side, coneTracerMaker(make));
 }
 
-MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTracerMaker& make) {
+MethodResult traceCtssX(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
     const Scene scene = sceneOfCones(in);
     const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
     FieldSettings settings;
@@ -123,7 +123,9 @@ MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTra
     settings.trace.threshold = 1.0 / 64.0;
     // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
     settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
-    return tracePixels(all, settings, coneXMaker(make));
+    if (spec.parameter("weights", "box") == "box") return tracePixels(all, settings, coneXMaker(make));
+    settings.keep_parts = true;
+    return traceParts(all, settings, coneXMaker(make));
 }
 
 MethodResult traceFxaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {

@@ -239,7 +239,7 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "ctss-x",
          .summary = "SDF: cones find what edges cross, lines divide it exactly",
          .own_box = true,
-         .choices = {},
+         .choices = {{"weights", {"box", "filter"}}},
          .run_field = traceCtssX},
         {.name = "lottes",
          .summary = "SDF: one jittered ray a pixel and frame, coverage, 11-ray reconstruction, grain",
@@ -293,7 +293,8 @@ MethodSpec parseMethod(std::string_view typed) {
 
 bool takesFilter(const MethodSpec& spec) {
     // What is composed with samples is filtered like them.
-    return !spec.composed.empty() || !requireMethod(spec.typed, spec.name).own_box;
+    return !spec.composed.empty() || !requireMethod(spec.typed, spec.name).own_box ||
+           spec.parameter("weights", "box") == "filter";
 }
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
