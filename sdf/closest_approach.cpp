@@ -9,7 +9,9 @@
 namespace edgewise::sdf {
 namespace {
 
-constexpr int kMostSteps = 16;
+constexpr int kMostSteps = 20;
+/// Growth is the sine of how far the nearest point lies off the plane across the ray.
+constexpr double kAcross = 1.0 / 32.0;
 /// A gradient takes as long as about so many values.
 constexpr std::uint32_t kPassesOfGradient = 3;
 /// Of a pixel's radius: how much nearer the ray may come elsewhere.
@@ -35,7 +37,7 @@ class GrowthRoot {
         const Asked last = last_;
         last_ = asked;
         (asked.growth < 0.0 ? before_ : after_) = asked;
-        if (asked.growth == 0.0 || (between() && asked.distance - least() <= kSettled * radius_)) return true;
+        if (asked.growth == 0.0 || (between() && settled(asked))) return true;
         next_ = asked.t + (asked.growth < 0.0 ? step(asked, last) : -step(asked, last));
         if (between() && !(next_ > before_.t && next_ < after_.t)) next_ = 0.5 * (before_.t + after_.t);
         return false;
@@ -53,6 +55,13 @@ class GrowthRoot {
     static constexpr double kOvershoot = 1.0 + 1.0 / 16.0;
 
     bool between() const { return before_.t < after_.t; }
+    /// Near enough, and seen across the ray: what is nearest beside a face before its edge faces elsewhere
+    /// than the edge. At a tip of the distance the growth leaps from one side to the other.
+    bool settled(const Asked& asked) const {
+        const double within = kSettled * radius_;
+        return asked.distance - least() <= within &&
+               (std::abs(asked.growth) <= kAcross || after_.t - before_.t <= within);
+    }
     /// Where the tangents on the two sides meet.
     double least() const {
         const double fall = -before_.growth, rise = after_.growth;

@@ -17,7 +17,7 @@ struct ClosestApproach {
 
 /// Near t_start, to 1/64 of the pixel's radius where the distance is convex along the ray: between two places
 /// of which one comes nearer and one leads away, no tangent falls lower. None where the ray is within the
-/// solid there, or 16 evaluations find no such two.
+/// solid there, or 20 evaluations find no such two.
 std::optional<ClosestApproach> closestApproach(const CellTapes& cells, const FieldRay& ray, double t_start);
 
 }  // namespace edgewise::sdf

@@ -103,6 +103,8 @@ TEST(ClosestApproach, BoxesAndTheirEdgesAreTheSearchs) {
         ++met;
         worst = std::max(worst, (near->distance - distance) / ray.pixel_radius);
         EXPECT_GE(near->distance, distance - 1e-9);
+        // The plane that outlines are made of turns with it.
+        EXPECT_LE(std::abs(glm::dot(near->outwards_world, ray.direction_world)), 1.0 / 32.0);
         // Settled or not, the point is of the surface, and leads out to the ray's point at its distance.
         EXPECT_NEAR(valueAt(tape, near->surface_world), 0.0, 1e-12);
         const glm::dvec3 back = near->surface_world + near->distance * near->outwards_world;
