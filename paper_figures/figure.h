@@ -56,5 +56,8 @@ std::vector<FigureFile> makeSphereDrawn(const FigureInput& input);
 std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
 std::vector<FigureFile> makeLottes(const FigureInput& input);
 std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
+std::vector<FigureFile> makeErrorTime(const FigureInput& input);
+std::vector<FigureFile> makeStability(const FigureInput& input);
+std::vector<FigureFile> makePlanner(const FigureInput& input);
 
 }  // namespace edgewise::figures

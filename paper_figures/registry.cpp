@@ -16,6 +16,12 @@ const std::vector<Figure>& figureRegistry() {
          "frequency response, ringing, blur and aliasing of every filter", makeFilterStudy},
         {"performance", "ours", "time against error, growth, stages and the distance to the ideal",
          makePerformance},
+        {"error-time", "ours", "error against run time of every method on every scene", makeErrorTime},
+#ifdef EDGEWISE_HAS_ORACLE
+        {"stability", "ours", "the stability atlas: error against condition over stiff and extreme cases",
+         makeStability},
+#endif
+        {"planner", "ours", "what the plan leaves out of a scene, and what that saves", makePlanner},
         {"sphere-tracing", "Enhanced sphere tracing, sections 3 and 4",
          "what relaxation, cones, pruning and Keinert's other enhancements save", makeSphereTracing},
         {"sphere-drawn", "Enhanced sphere tracing, Figures 2 to 6", "rays drawn step by step",
