@@ -59,5 +59,7 @@ std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
 std::vector<FigureFile> makeErrorTime(const FigureInput& input);
 std::vector<FigureFile> makeStability(const FigureInput& input);
 std::vector<FigureFile> makePlanner(const FigureInput& input);
+std::vector<FigureFile> makeConeScenes(const FigureInput& input);
+std::vector<FigureFile> makeConeTable(const FigureInput& input);
 
 }  // namespace edgewise::figures

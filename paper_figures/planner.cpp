@@ -30,7 +30,7 @@ Effort effortFor(bool quick) {
     for (const SceneInfo& scene : sceneNames()) effort.scenes.push_back(scene.name);
     if (!quick) return effort;
     effort.runs = 1;
-    effort.scenes = {"random-2k", "zone-plate", "primitives"};
+    effort.scenes = {"random-2k", "primitives"};
     effort.triangles.width = effort.triangles.height = 96;
     effort.field.width = 96, effort.field.height = 54;
     return effort;

@@ -32,6 +32,10 @@ const std::vector<Figure>& figureRegistry() {
          makeLottes},
         {"cone-drawn", "Cone-traced supersampling, Figures 2 to 4, 6 and 7", "a cone drawn step by step",
          makeConeDrawn},
+        {"cone-scenes", "Cone-traced supersampling, Figures 1, 5 and 10",
+         "pictures with parts enlarged, by kinds of edges", makeConeScenes},
+        {"cone-table", "Cone-traced supersampling, Table 1", "times of five scenes at two sizes",
+         makeConeTable},
         {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
          "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
     };

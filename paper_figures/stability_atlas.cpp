@@ -16,10 +16,14 @@ namespace {
 
 using Rows = std::vector<judge::StabilityRow>;
 
-/// From pale at a millionth of the bound to dark at the bound itself.
+constexpr double kPaleOfBound = 1e-4;  ///< and below
+
 GridCell cellOf(double of_bound, bool kept) {
-    const double shade = of_bound <= 0.0 ? 0.0 : 1.0 + std::log10(of_bound) / 6.0;
-    return {of_bound == 0.0 ? "0" : fmt::format("{:.2g}", of_bound), shade, of_bound > 1.0 || !kept};
+    const double shade = of_bound <= 0.0 ? 0.0 : 1.0 - std::log10(of_bound) / std::log10(kPaleOfBound);
+    return {of_bound == 0.0   ? "0"
+            : of_bound < 1e-9 ? "< 1e-9"
+                              : fmt::format("{:.2g}", of_bound),
+            shade, of_bound > 1.0 || !kept};
 }
 
 /// In order of appearance.

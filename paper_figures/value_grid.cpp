@@ -11,7 +11,8 @@ namespace edgewise::figures {
 namespace {
 
 constexpr double kCellWidth = 82, kCellHeight = 22, kLeft = 150, kTop = 26, kMargin = 10;
-constexpr double kLightText = 0.6;  ///< from this shade on
+constexpr double kLeastWidth = 760;  ///< that texts are as large as in other plots
+constexpr double kLightText = 0.6;   ///< from this shade on
 
 std::string fillOf(const GridCell& cell) {
     if (cell.alarm) return "#d7263d";
@@ -28,7 +29,7 @@ glm::dvec2 cornerOf(std::size_t row, std::size_t column) {
 
 std::string valueGridSvg(const ValueGrid& grid) {
     const glm::dvec2 end = cornerOf(grid.rows.size(), grid.columns.size());
-    Drawing drawing(end.x + kMargin, end.y + kMargin, grid.label);
+    Drawing drawing(std::max(end.x + kMargin, kLeastWidth), end.y + kMargin, grid.label);
     for (std::size_t i = 0; i < grid.columns.size(); ++i)
         drawing.text(cornerOf(0, i) + glm::dvec2(kCellWidth / 2, -8), grid.columns[i],
                      "text-anchor='middle' font-size='11'");
