@@ -226,6 +226,14 @@ FigurePlot limitsPlot(const Views& views, const Effort& effort) {
             drawing.svg()};
 }
 
+/// Each over the whole width, as large as drawn.
+std::string alone(const std::vector<FigurePlot>& plots) {
+    std::string out;
+    for (const FigurePlot& plot : plots)
+        out += "<div style='max-width:1160px'>" + plotsHtml({&plot, 1}) + "</div>\n";
+    return out;
+}
+
 const std::vector<std::string> kLimitMethods{"none", "ssaa:2", "ctss", "ctss-r", "ctss-x"};
 
 std::string kindsTable(const Views& views) {
@@ -308,8 +316,7 @@ std::vector<FigureFile> makeConeScenes(const FigureInput& input) {
             effort.width, effort.height)},
         input.quick};
     std::vector<FigureFile> files{
-        {"report.html",
-         figurePage(words, plotsHtml(plots) + "<h2>By kinds of edges</h2>" + kindsTable(limits))},
+        {"report.html", figurePage(words, alone(plots) + "<h2>By kinds of edges</h2>" + kindsTable(limits))},
         {"results.csv", kindsCsv(limits)}};
     appendPlotFiles(plots, files);
     return files;

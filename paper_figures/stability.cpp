@@ -73,7 +73,9 @@ std::vector<FigureFile> makeStability(const FigureInput& input) {
         {command},
         input.quick};
     std::vector<FigureFile> files{
-        {"report.html", figurePage(words, summary(rows, cells) + plotsHtml(plots) +
+        {"report.html", figurePage(words, summary(rows, cells) + "<div style='max-width:900px'>" +
+                                              plotsHtml(std::span(plots).first(1)) + "</div>" +
+                                              plotsHtml(std::span(plots).subspan(1)) +
                                               "<h2>The worst of each</h2>" + cellsTable(cells))},
         {"results.csv", judge::stabilityCsv(rows)},
         {"table.tex", judge::stabilityLatex(rows)},

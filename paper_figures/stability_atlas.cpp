@@ -88,12 +88,13 @@ FigurePlot casePlot(const judge::StabilityCase& one, const std::map<std::string,
         add(filter, color, false, points.error);
         add(filter + ", fp32", color, true, points.float_error);
     }
-    const auto addBound = [&](const std::string& name, const std::map<double, double>& values) {
-        PlotCurve curve{name, "#777777", true, false, {}, {}};
+    const auto addBound = [&](const std::string& name, const char* color,
+                              const std::map<double, double>& values) {
+        PlotCurve curve{name, color, true, false, {}, {}};
         for (const auto& [x, y] : values) curve.line.emplace_back(x, y);
         plot.curves.push_back(std::move(curve));
     };
-    addBound("promised", bound), addBound("promised, fp32", float_bound);
+    addBound("promised", "#444444", bound), addBound("promised, fp32", "#aaaaaa", float_bound);
     return {"case-" + one.name, one.name + ": " + one.what, linePlotSvg(plot)};
 }
 
