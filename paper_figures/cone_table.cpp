@@ -82,6 +82,20 @@ void addClaims(const std::vector<ConeTableRow>& rows, std::vector<FigureClaim>& 
 
 }  // namespace
 
+std::vector<ConeTableRow> paperTable() {
+    std::vector<ConeTableRow> rows;
+    for (const PaperScene& scene : kPaper)
+        for (std::size_t size = 0; size < 2; ++size) {
+            ConeTableRow row{scene.name, Effort().sizes[size].x, Effort().sizes[size].y, {}, {}};
+            for (std::size_t m = 0; m < kTableMethods.size(); ++m) {
+                row.seconds[m] = 1e-3 * scene.milliseconds[size][m];
+                row.paper[m] = scene.milliseconds[size][m] / scene.milliseconds[size][0];
+            }
+            rows.push_back(row);
+        }
+    return rows;
+}
+
 double meanRatio(const std::vector<ConeTableRow>& rows, std::size_t method) {
     double sum = 0.0;
     for (const ConeTableRow& row : rows) sum += row.ratio(method);

@@ -21,6 +21,9 @@ struct ConeTableRow {
     double ratio(std::size_t method) const { return seconds[method] / seconds[0]; }
 };
 
+/// What the paper measured itself, as seconds and as ratios, under the names of our scenes.
+std::vector<ConeTableRow> paperTable();
+
 /// The mean over rows, as the paper's last column has it.
 double meanRatio(const std::vector<ConeTableRow>& rows, std::size_t method);
 double meanPaper(const std::vector<ConeTableRow>& rows, std::size_t method);

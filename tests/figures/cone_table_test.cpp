@@ -15,5 +15,16 @@ TEST(ConeTable, MeansAreOfRatiosAndNotOfTimes) {
     EXPECT_NE(coneTableCsv(rows).find("b,2,1,ssaa:2,200,2,3.5\n"), std::string::npos) << coneTableCsv(rows);
 }
 
+/// Its times, copied one by one, give the means that it prints, to the digits that it prints.
+TEST(ConeTable, ThePapersTimesGiveItsOwnMeans) {
+    const auto rows = paperTable();
+    ASSERT_EQ(rows.size(), 10u);
+    const double printed[]{1.0, 4.16, 1.30, 1.16};
+    for (std::size_t m = 0; m < kTableMethods.size(); ++m) {
+        EXPECT_NEAR(meanRatio(rows, m), printed[m], 0.005) << kTableMethods[m];
+        EXPECT_DOUBLE_EQ(meanRatio(rows, m), meanPaper(rows, m));
+    }
+}
+
 }  // namespace
 }  // namespace edgewise::figures
