@@ -56,5 +56,10 @@ std::vector<FigureFile> makeSphereDrawn(const FigureInput& input);
 std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
 std::vector<FigureFile> makeLottes(const FigureInput& input);
 std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
+std::vector<FigureFile> makeErrorTime(const FigureInput& input);
+std::vector<FigureFile> makeStability(const FigureInput& input);
+std::vector<FigureFile> makePlanner(const FigureInput& input);
+std::vector<FigureFile> makeConeScenes(const FigureInput& input);
+std::vector<FigureFile> makeConeTable(const FigureInput& input);
 
 }  // namespace edgewise::figures

@@ -20,14 +20,19 @@ double part(const PlotAxis& axis, double value) {
 }
 
 constexpr double kDecadesOfAllLabels = 2.5;  ///< beyond, powers of ten alone
+constexpr double kLeastInDigits = 9e-4;      ///< on logarithmic axes
+constexpr double kMostDecadeLabels = 8.0;    ///< beyond, each so-manieth of them
 
 std::vector<double> logarithmicTicks(const PlotAxis& axis) {
-    const bool all = std::log10(axis.high / axis.low) < kDecadesOfAllLabels;
+    const double decades = std::log10(axis.high / axis.low);
+    const bool all = decades < kDecadesOfAllLabels;
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / kMostDecadeLabels)));
     std::vector<double> ticks;
     for (int e = static_cast<int>(std::floor(std::log10(axis.low))); std::pow(10.0, e) <= axis.high; ++e)
         for (const double digit : {1.0, 2.0, 5.0}) {
             const double value = digit * std::pow(10.0, e);
-            if ((all || digit == 1.0) && value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9))
+            if ((all || (digit == 1.0 && e % every == 0)) && value >= axis.low * (1 - 1e-9) &&
+                value <= axis.high * (1 + 1e-9))
                 ticks.push_back(value);
         }
     return ticks;
@@ -53,12 +58,12 @@ class Canvas {
         for (const double v : ticksOf(plot_.y))
             out += fmt::format(
                 "<path d='M{} {:.1f}h{}' stroke='#ddd'/><text x='{}' y='{:.1f}' text-anchor='end'>{}</text>",
-                kLeft, py(v), kInnerWidth, kLeft - 6, py(v) + 4, number(v));
+                kLeft, py(v), kInnerWidth, kLeft - 6, py(v) + 4, number(plot_.y, v));
         for (const double v : ticksOf(plot_.x))
             out += fmt::format(
                 "<path d='M{:.1f} {}v{}' stroke='#ddd'/><text x='{:.1f}' y='{}' "
                 "text-anchor='middle'>{}</text>",
-                px(v), kTop, kInnerHeight, px(v), kTop + kInnerHeight + 17, number(v));
+                px(v), kTop, kInnerHeight, px(v), kTop + kInnerHeight + 17, number(plot_.x, v));
         for (const PlotMark& mark : plot_.marks)
             out += fmt::format(
                 "<path d='M{0:.1f} {1}v{2}' stroke='#555' stroke-dasharray='2 3'/><text "
@@ -99,7 +104,8 @@ class Canvas {
     }
 
     /// With a true minus sign, and no -0; large ones as 20k and 1M.
-    static std::string number(double value) {
+    static std::string number(const PlotAxis& axis, double value) {
+        if (axis.logarithmic && value < kLeastInDigits) return fmt::format("{:.0e}", value);
         if (std::abs(value) < 1e-12) return "0";
         if (value >= 1e6) return fmt::format("{:g}M", value / 1e6);
         if (value >= 1e4) return fmt::format("{:g}k", value / 1e3);

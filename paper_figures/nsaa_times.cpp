@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper_figures/compared_scene.h"
 #include "paper_figures/conservative_area.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
 #include "paper_figures/stacked_bars.h"
 #include "paper_figures/temporary_folder.h"
-#include "pipeline/compare/schedule.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/html_text.h"
@@ -50,18 +50,6 @@ struct TimedRow {
         for (const auto& [name, value] : stages) all += value, sum += kindOf(name) == kind ? value : 0.0;
         return all > 0.0 ? sum / all : 0.0;
     }
-};
-
-class Labelled : public Progress {
-  public:
-    Labelled(Progress& outer, std::string label) : outer_(outer), label_(std::move(label)) {}
-    void stage(std::string_view, std::size_t total) override { outer_.stage(label_, total); }
-    void advance(std::size_t done) override { outer_.advance(done); }
-    bool cancelled() override { return outer_.cancelled(); }
-
-  private:
-    Progress& outer_;
-    std::string label_;
 };
 
 std::vector<std::string> arguments(const TimedScene& scene, int shrink, const std::string& method, bool all) {

@@ -37,8 +37,13 @@ std::vector<FigureFile> makeNsaaTori(const FigureInput& input) {
         "nsaa-7",
         "A sequence of tori",
         "After NSAA's Figure 7: seven checkered tori recede, turn, hide each other and themselves; "
-        "no depth buffer is used. The paper shades by Phong's model; here the file's metallic-roughness "
-        "material is lit by the documented default rig, and textured. Visibility is exact, shading is "
+        "no depth buffer is used. The paper shades by Phong's model with an exponent that it does not state, "
+        "and "
+        "glTF has none. In its place stands the file's material of roughness 0.4, lit by the documented "
+        "default "
+        "rig, and textured: its lobe of alpha = 0.4^2 is about as wide as that of a Blinn-Phong exponent of "
+        "2 / alpha^2 - 2 = 76, and its colour is no closed form in the plane either. Visibility is exact, "
+        "shading is "
         "one point a pixel and triangle, the nearest one, which may be a hidden one.",
         {{"size", "1024x512"},
          {"filter", "gaussian, R 2, sigma R/3 (not published: ours)"},

@@ -7,53 +7,17 @@
 
 #include "data/generate/random_triangles.h"
 #include "data/generate/tori.h"
+#include "paper_figures/compared_scene.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/compare/judge_row.h"
-#include "pipeline/compare/schedule.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
-#include "pipeline/scene_catalog.h"
-#include "pipeline/version.h"
 
 namespace edgewise::figures {
 namespace {
 
 constexpr const char* kReference = "nsaa,device=cpu";
-/// For everything but the image, MiB: the program's default.
-constexpr double kUsualMemory = 1024.0;
-constexpr double kBytesPerPixel = sizeof(glm::dvec4) + sizeof(float);
 
-/// Of the runs inside: their stages have the name of what is measured.
-class Labelled : public Progress {
-  public:
-    Labelled(Progress& outer, std::string label) : outer_(outer), label_(std::move(label)) {}
-    void stage(std::string_view, std::size_t total) override { outer_.stage(label_, total); }
-    void advance(std::size_t done) override { outer_.advance(done); }
-    bool cancelled() override { return outer_.cancelled(); }
-
-  private:
-    Progress& outer_;
-    std::string label_;
-};
-
-struct Picture {
-    std::string scene;  ///< a name or a file
-    int width, height;
-    std::string filter;
-    double radius;
-};
-
-std::vector<std::string> workerArguments(const Picture& picture, const std::string& method) {
-    const double image_mib = kBytesPerPixel * picture.width * picture.height / 0x1p20;
-    return {"compare-worker",
-            picture.scene,
-            fmt::format("--size={}x{}", picture.width, picture.height),
-            "--filter=" + picture.filter,
-            fmt::format("--radius={}", picture.radius),
-            "--device=cpu",
-            fmt::format("--memory={:.0f}", std::ceil(kUsualMemory + image_mib)),
-            "--method=" + method};
-}
+using Picture = ComparedPicture;
 
 class Measurement {
   public:
@@ -104,25 +68,11 @@ class Measurement {
     }
 
     void compareOn(const PerformanceScene& scene) {
-        findScene(scene.name);
         const Picture picture{scene.name, scene.width, scene.height, scene.filter, scene.radius};
-        const Prefilter filter = makePrefilter(scene.filter, scene.radius, {});
-        SceneTimes times{scene, {scene.name, kReference, "", version(), found_.machine, {}}};
-        std::vector<compare::Contender> contenders;
-        for (const std::string& method : methodsFor(scene.filter)) {
-            contenders.push_back({method, workerArguments(picture, method)});
-            times.comparison.rows.push_back(compare::rowOf(parseMethod(method), filter));
-        }
-        std::vector<compare::Row>& rows = times.comparison.rows;
         Labelled labelled(progress_, scene.title);
-        compare::Row own;
-        const compare::ReferencePicture reference =
-            compare::referenceOf({kReference, workerArguments(picture, kReference)}, scratch_, own, labelled);
-        compare::runByTurns(
-            contenders, schedule(true), rows,
-            [&](std::size_t i, const ImageBuffer& image) { compare::judgeRow(rows[i], image, reference); },
-            [](std::size_t) {}, labelled);
-        noteFailures(scene.title, rows);
+        SceneTimes times{scene, figures::compareOn(picture, kReference, methodsFor(scene.filter),
+                                                   schedule(true), labelled)};
+        noteFailures(scene.title, times.comparison.rows);
         found_.scenes.push_back(std::move(times));
     }
 

@@ -16,6 +16,12 @@ const std::vector<Figure>& figureRegistry() {
          "frequency response, ringing, blur and aliasing of every filter", makeFilterStudy},
         {"performance", "ours", "time against error, growth, stages and the distance to the ideal",
          makePerformance},
+        {"error-time", "ours", "error against run time of every method on every scene", makeErrorTime},
+#ifdef EDGEWISE_HAS_ORACLE
+        {"stability", "ours", "the stability atlas: error against condition over stiff and extreme cases",
+         makeStability},
+#endif
+        {"planner", "ours", "what the plan leaves out of a scene, and what that saves", makePlanner},
         {"sphere-tracing", "Enhanced sphere tracing, sections 3 and 4",
          "what relaxation, cones, pruning and Keinert's other enhancements save", makeSphereTracing},
         {"sphere-drawn", "Enhanced sphere tracing, Figures 2 to 6", "rays drawn step by step",
@@ -26,6 +32,10 @@ const std::vector<Figure>& figureRegistry() {
          makeLottes},
         {"cone-drawn", "Cone-traced supersampling, Figures 2 to 4, 6 and 7", "a cone drawn step by step",
          makeConeDrawn},
+        {"cone-scenes", "Cone-traced supersampling, Figures 1, 5 and 10",
+         "pictures with parts enlarged, by kinds of edges", makeConeScenes},
+        {"cone-table", "Cone-traced supersampling, Table 1", "times of five scenes at two sizes",
+         makeConeTable},
         {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
          "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
     };

@@ -91,6 +91,54 @@ TEST(FigureCommand, ConeTracingWritesItsFiles) {
     }
 }
 
+/// Fields of a CSV's rows, none of which has a comma in it.
+std::vector<std::vector<std::string>> fieldsOf(const std::filesystem::path& csv) {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& line : lines(readFile(csv))) {
+        std::istringstream text(line);
+        rows.emplace_back();
+        for (std::string field; std::getline(text, field, ',');) rows.back().push_back(field);
+    }
+    return rows;
+}
+
+TEST(FigureCommand, OursAndConeTablesSayWhatTheyMeasured) {
+    const TemporaryFolder folder;
+    const ProgramRun done =
+        runProgram({"figure", "error-time", "planner", "cone-scenes", "cone-table", "--quick", "-o", "out"},
+                   folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    const auto out = folder.path() / "out";
+    for (const char* name :
+         {"error-time/means-sdf.pdf", "error-time/pareto-primitives.svg", "planner/savings-triangles.pdf",
+          "planner/savings-sdf.svg", "cone-scenes/figure-1.pdf", "cone-scenes/figure-5.svg",
+          "cone-scenes/settings.pdf", "cone-scenes/figure-10.pdf", "cone-table/ratios.pdf"})
+        EXPECT_FALSE(readFile(out / name).empty()) << name;
+    std::map<std::string, double> errors;  // in those of none
+    for (const auto& row : fieldsOf(out / "error-time" / "means.csv"))
+        if (row[0] != "on") errors[row[0] + " " + row[1]] = std::stod(row[4]);
+    EXPECT_EQ(errors.at("triangles nsaa"), 0.0);
+    EXPECT_LT(errors.at("triangles ssaa:4"), errors.at("triangles ssaa:2"));
+    EXPECT_LT(errors.at("SDF scenes ctss-x"), errors.at("SDF scenes ctss"));
+    std::map<std::string, std::string> used;
+    for (const auto& row : fieldsOf(out / "planner" / "results.csv")) used[row[0] + " " + row[1]] = row[2];
+    EXPECT_EQ(used.at("random-2k fetch"), "true");     // constant colours
+    EXPECT_EQ(used.at("random-2k cancel"), "false");   // all of them different
+    EXPECT_EQ(used.at("primitives convex"), "false");  // the scene has no bound
+    EXPECT_EQ(used.at("primitives prune"), "true");
+    std::map<std::string, double> rmse;
+    for (const auto& row : fieldsOf(out / "cone-scenes" / "results.csv"))
+        if (row[0] != "edges") rmse[row[0] + " " + row[2]] = std::stod(row[3]);
+    // cones mend contours and nothing else; lines mend the rest
+    EXPECT_LT(rmse.at("contour ctss"), 0.8 * rmse.at("contour none"));
+    for (const std::string kind : {"internal", "texture", "light"}) {
+        EXPECT_GT(rmse.at(kind + " ctss"), 0.8 * rmse.at(kind + " none")) << kind;
+        EXPECT_LT(rmse.at(kind + " ctss-x"), 0.8 * rmse.at(kind + " none")) << kind;
+    }
+    EXPECT_EQ(fieldsOf(out / "cone-table" / "results.csv").size(), 1u + 2 * 2 * 4);
+}
+
 TEST(FigureCommand, ListsItsNames) {
     const ProgramRun run = runProgram({"figures"});
     EXPECT_EQ(run.status, 0);

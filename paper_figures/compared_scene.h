@@ -1,0 +1,42 @@
+// A scene's picture by several methods, each a worker process as compare has them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/compare/schedule.h"
+
+namespace edgewise::figures {
+
+/// What every method makes, on the CPU unless it names a device itself.
+struct ComparedPicture {
+    std::string scene;  ///< a name or a file
+    int width = 0, height = 0;
+    std::string filter = "box";
+    double radius = 0.5;
+};
+
+/// Of the runs inside: their stages have the name of what is measured.
+class Labelled : public Progress {
+  public:
+    Labelled(Progress& outer, std::string label) : outer_(outer), label_(std::move(label)) {}
+    void stage(std::string_view, std::size_t total) override { outer_.stage(label_, total); }
+    void advance(std::size_t done) override { outer_.advance(done); }
+    bool cancelled() override { return outer_.cancelled(); }
+
+  private:
+    Progress& outer_;
+    std::string label_;
+};
+
+/// Of compare-worker, with memory that holds the image.
+std::vector<std::string> workerArguments(const ComparedPicture& picture, const std::string& method);
+
+/// A row a method, by turns, judged against the reference, which is not timed. Rows that failed say why.
+/// Throws Interrupted, InputError for no scene or method, WorkerFailure where the reference cannot be made.
+compare::Comparison compareOn(const ComparedPicture& picture, const std::string& reference,
+                              const std::vector<std::string>& methods,
+                              const compare::ScheduleOptions& schedule, Progress& progress);
+
+}  // namespace edgewise::figures

@@ -1,0 +1,17 @@
+// Where in a picture edges of one kind are best seen.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "paper_figures/edge_kinds.h"
+#include "pipeline/film.h"
+
+namespace edgewise::figures {
+
+/// The part with most pixels of the kind, each pixel of another kind counting against one, that meets none of
+/// `others`. `kinds`: of the whole film, row by row. A part without any where there is none.
+PixelBox partOfKind(const std::vector<EdgeKind>& kinds, const Film& film, EdgeKind kind, glm::ivec2 size,
+                    std::span<const PixelBox> others);
+
+}  // namespace edgewise::figures
