@@ -29,7 +29,9 @@ WorldBox boxOf(const Scene& scene) {
     const sdf::Box bounds = sdf::levelBox(field.tree, field.tree.root);
     if (bounds.empty()) throw InputError(scene.source, "holds no surface");
     if (!bounds.bounded())
-        throw InputError(scene.source, "its tree is unbounded, a mesh of it needs --box X0,Y0,Z0,X1,Y1,Z1");
+        throw InputError(scene.source,
+                         "its tree is unbounded, a mesh of it needs --box X0,Y0,Z0,X1,Y1,Z1, and --cap where "
+                         "it goes on beyond");
     WorldBox box;
     for (int axis = 0; axis < 3; ++axis) box.low[axis] = bounds.low[axis], box.high[axis] = bounds.high[axis];
     const glm::dvec3 size = box.high - box.low;
@@ -63,6 +65,18 @@ Mesher parseMesher(const std::string& name) {
     if (name == "dual") return Mesher::kDual;
     if (name == "marching-cubes") return Mesher::kMarchingCubes;
     throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes", name));
+}
+
+Scene cappedAt(const Scene& scene, const WorldBox& box) {
+    sdf::FieldScene field = fieldOf(scene);
+    const glm::dvec3 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
+    const std::uint32_t solid = field.tree.root;
+    const std::uint32_t cap = field.tree.add(sdf::Kind::kBox, {size.x, size.y, size.z});
+    const std::uint32_t moved = field.tree.add(sdf::Kind::kTranslate, {middle.x, middle.y, middle.z}, {cap});
+    field.tree.root = field.tree.add(sdf::Kind::kIntersection, {}, {solid, moved});
+    Scene capped = scene;
+    capped.field = std::make_shared<sdf::FieldScene>(std::move(field));
+    return capped;
 }
 
 Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {

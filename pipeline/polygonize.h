@@ -32,6 +32,10 @@ struct Polygonized {
     double seconds = 0.0, cpu_seconds = 0.0;
 };
 
+/// The scene's solid within the box alone, closed where the box cuts it; what it gets there has no material
+/// of its own. Throws InputError naming the scene: it is no SDF scene or raw GLSL.
+Scene cappedAt(const Scene& scene, const WorldBox& box);
+
 /// Throws InputError naming the scene: it is no SDF scene or raw GLSL, is unbounded and has no box, is empty,
 /// reaches the box's end; FailureError where the mesh would not fit into memory.
 Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options);

@@ -17,6 +17,8 @@ constexpr int kRounds = 8, kRetreats = 12;
 constexpr double kGain = 0.8;
 /// Of an edge's length: from its middle to where it is divided.
 constexpr double kFarthest = 1.0;
+/// Of a cell's side: triangles that turned edges make are no narrower.
+constexpr double kLeastHeight = 1e-3;
 
 struct Candidate {
     std::uint32_t a, b;
@@ -26,6 +28,11 @@ struct Added {
     std::uint32_t vertex;
     glm::dvec3 middle;
     int retreats = 0;
+};
+/// Two triangles' common edge a-b, and their other corners.
+struct Diamond {
+    std::uint32_t a, b;
+    std::array<std::uint32_t, 2> sides, tips;
 };
 
 class Refiner {
@@ -47,11 +54,11 @@ class Refiner {
         std::size_t all = 0;
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
             touched_.assign(mesh_.triangles.size(), false);
-            added_.clear();
+            added_.clear(), turned_.clear();
             std::vector<std::uint32_t> later;
-            for (const Candidate& c : candidatesOf(active)) divide(c, later);
+            for (const Candidate& c : candidatesOf(active)) improve(c, later);
             all += added_.size();
-            if (added_.empty()) break;
+            if (added_.empty() && turned_.empty()) break;
             retreat();
             active = std::move(later);
             for (std::uint32_t t = 0; t < touched_.size(); ++t)
@@ -91,26 +98,78 @@ class Refiner {
         return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
     }
 
-    void divide(const Candidate& c, std::vector<std::uint32_t>& later) {
-        std::array<std::uint32_t, 2> sides{};
+    /// False: the edge has not two triangles.
+    bool diamondOf(std::uint32_t a, std::uint32_t b, Diamond& d) const {
+        d.a = a, d.b = b;
         std::size_t count = 0;
-        for (const std::uint32_t t : around_[c.a])
-            if (std::find(around_[c.b].begin(), around_[c.b].end(), t) != around_[c.b].end() && count < 2)
-                sides[count++] = t;
-        if (count != 2) return;
-        if (touched_[sides[0]] || touched_[sides[1]]) {
-            later.insert(later.end(), sides.begin(), sides.end());
+        for (const std::uint32_t t : around_[a])
+            if (holds(mesh_.triangles[t], b) && count < 2) d.sides[count++] = t;
+        if (count != 2) return false;
+        for (int i = 0; i < 2; ++i) d.tips[i] = third(mesh_.triangles[d.sides[i]], a, b);
+        return d.tips[0] != d.tips[1];
+    }
+    static bool holds(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+    bool isEdge(std::uint32_t a, std::uint32_t b) const {
+        return std::any_of(around_[a].begin(), around_[a].end(),
+                           [&](std::uint32_t t) { return holds(mesh_.triangles[t], b); });
+    }
+
+    void improve(const Candidate& c, std::vector<std::uint32_t>& later) {
+        Diamond d;
+        if (!diamondOf(c.a, c.b, d)) return;
+        if (touched_[d.sides[0]] || touched_[d.sides[1]]) {
+            later.insert(later.end(), d.sides.begin(), d.sides.end());
             return;
         }
-        const std::array<std::uint32_t, 2> tips{third(mesh_.triangles[sides[0]], c.a, c.b),
-                                                third(mesh_.triangles[sides[1]], c.a, c.b)};
+        if (shouldTurn(c, d))
+            turn(d), turned_.push_back(d);
+        else
+            divide(c, d);
+    }
+
+    double offOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const glm::dvec3 centre = (at(a) + at(b) + at(c)) / 3.0;
+        return std::abs(valueAt(tape_(centre), centre));
+    }
+    double heightOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const double longest =
+            std::max({glm::distance(at(a), at(b)), glm::distance(at(b), at(c)), glm::distance(at(c), at(a))});
+        return glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / longest;
+    }
+    /// The other diagonal is nearer to the surface, and makes no slivers nor folds.
+    bool shouldTurn(const Candidate& c, const Diamond& d) const {
+        const auto [p, q] = d.tips;
+        if (isEdge(p, q) || wasTurned(p, q)) return false;
+        const double least = kLeastHeight * step_;
+        if (heightOf(d.a, p, q) < least || heightOf(d.b, p, q) < least) return false;
+        const double now = std::max({c.off, offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
+        const double then = std::max({offBetween(at(p), at(q)), offOf(d.a, p, q), offOf(d.b, p, q)});
+        return then < kGain * now;
+    }
+    bool wasTurned(std::uint32_t p, std::uint32_t q) const {
+        return std::any_of(turned_.begin(), turned_.end(), [&](const Diamond& d) {
+            return (d.a == p && d.b == q) || (d.a == q && d.b == p);
+        });
+    }
+    /// The edge between the tips in the place of a-b.
+    void turn(const Diamond& d) {
+        const auto [s, t] = d.sides;
+        const auto [p, q] = d.tips;
+        std::replace(mesh_.triangles[s].begin(), mesh_.triangles[s].end(), d.b, q);
+        std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), d.a, p);
+        std::erase(around_[d.b], s), std::erase(around_[d.a], t);
+        around_[q].push_back(s), around_[p].push_back(t);
+        touched_[s] = touched_[t] = true;
+    }
+
+    void divide(const Candidate& c, const Diamond& d) {
         glm::dvec3 place;
-        if (!placeFor(c, tips, place)) return;
+        if (!placeFor(c, d.tips, place)) return;
         const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
         mesh_.position_world.push_back(place);
         around_.emplace_back(), stuck_.push_back(false);
         added_.push_back({v, 0.5 * (at(c.a) + at(c.b))});
-        for (int i = 0; i < 2; ++i) splitTriangle(sides[i], c.a, c.b, tips[i], v);
+        for (int i = 0; i < 2; ++i) splitTriangle(d.sides[i], c.a, c.b, d.tips[i], v);
     }
 
     /// The half at b becomes a triangle of its own.
@@ -160,13 +219,14 @@ class Refiner {
         if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
     }
 
-    /// New vertices whose triangles meet others go back to where they change nothing.
+    /// New vertices whose triangles meet others go back to where they change nothing, edges turn back.
     void retreat() {
         for (int n = 0; n < kRetreats; ++n) {
             const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_, 1.5 * step_);
             if (pairs.empty()) return;
+            turnBack(pairs);
             std::vector<std::uint32_t> back;
-            const std::uint32_t first = added_.front().vertex;
+            const std::uint32_t first = added_.empty() ? 0xffffffffu : added_.front().vertex;
             for (const auto& [s, t] : pairs)
                 for (const std::uint32_t triangle : {s, t})
                     for (const std::uint32_t v : mesh_.triangles[triangle])
@@ -182,6 +242,22 @@ class Refiner {
         }
     }
 
+    void turnBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+        std::vector<std::uint32_t> meeting;
+        for (const auto& [s, t] : pairs) meeting.push_back(s), meeting.push_back(t);
+        std::sort(meeting.begin(), meeting.end());
+        const auto meets = [&](std::uint32_t t) {
+            return std::binary_search(meeting.begin(), meeting.end(), t);
+        };
+        std::erase_if(turned_, [&](const Diamond& d) {
+            if (!meets(d.sides[0]) && !meets(d.sides[1])) return false;
+            // Seen from the other diagonal: its ends are the tips, each side's third corner an end.
+            turn({d.tips[0], d.tips[1], d.sides, {d.a, d.b}});
+            stuck_[d.a] = stuck_[d.b] = true;
+            return true;
+        });
+    }
+
     SurfaceMesh& mesh_;
     const TapeAt& tape_;
     const double step_;
@@ -190,6 +266,7 @@ class Refiner {
     std::vector<bool> stuck_,
         touched_;  ///< triangles of this round; vertices that could not go where they belong
     std::vector<Added> added_;
+    std::vector<Diamond> turned_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ constexpr int kLinesPerCell = 4;
 struct PolygonizeArguments {
     std::string scene, output, mesher = "dual", command_line;
     std::optional<std::string> resolution, box, stats;
-    bool no_check = false, quiet = false;
+    bool cap = false, no_check = false, quiet = false;
 };
 
 WorldBox parseBox(const std::string& text) {
@@ -50,6 +50,7 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
         options.resolution =
             static_cast<int>(parseInteger("--resolution", *arguments.resolution, 4, sdf::kMostResolution));
     if (arguments.box) options.box = parseBox(*arguments.box);
+    if (arguments.cap && !arguments.box) throw InputError("--cap", "it needs --box X0,Y0,Z0,X1,Y1,Z1");
     return options;
 }
 
@@ -76,10 +77,17 @@ nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check)
 void polygonizeScene(const PolygonizeArguments& arguments) {
     checkOutputPath(arguments.output);
     if (arguments.stats) checkOutputPath(*arguments.stats);
-    const PolygonizeOptions options = optionsOf(arguments);
+    PolygonizeOptions options = optionsOf(arguments);
     Scene scene = loadScene(findScene(arguments.scene));
     scene.source = arguments.scene;
     warnOfIgnored(scene);
+    if (scene.field && !scene.field->analytic.empty())
+        spdlog::warn("{}: {} analytic shapes beside the tree are not in the mesh", scene.source,
+                     scene.field->analytic.size());
+    if (arguments.cap) {
+        scene = cappedAt(scene, *options.box);
+        options.box.reset();  // of what is left, the cap is the bounds
+    }
     const Polygonized made = polygonize(scene, options);
     throwIfInterrupted();
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
@@ -108,6 +116,7 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
         ->add_option("--box", arguments->box,
                      "where the surface is looked for [the scene's bounds and a little more]")
         ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+    command->add_flag("--cap", arguments->cap, "the solid ends at the box, closed there");
     command->add_option("--stats", arguments->stats, "the mesh's quality, times and counts")
         ->type_name("FILE.json");
     command->add_flag("--no-check", arguments->no_check, "self-intersections and distances are not measured");

@@ -235,6 +235,37 @@ TEST(Polygonize, RefusesInOneLine) {
     EXPECT_THROW(parseMesher("best"), InputError);
 }
 
+TEST(Polygonize, UnboundedSolidsEndAtTheCap) {
+    sdf::Tree tree;
+    const auto ground = tree.add(Kind::kPlane, {0.0, 1.0, 0.0, 0.0}, {}, 0);
+    const auto ball = tree.add(Kind::kSphere, {0.5}, {}, 0);
+    const auto raised = tree.add(Kind::kTranslate, {0.1, 0.0, -0.2}, {ball});
+    tree.root = tree.add(Kind::kUnion, {}, {ground, raised});
+    const Scene capped = cappedAt(sceneOf(tree), {{-1.0, -0.5, -1.2}, {1.1, 1.0, 1.0}});
+    PolygonizeOptions options;
+    options.resolution = 40;
+    const Polygonized made = polygonize(capped, options);
+    expectClean(made, "ground and half a ball");
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_EQ(quality.euler, 2);
+    // A slab, half a ball on it: chords of the ball lie within it, by a cell's sagitta all over it.
+    const double slab = 2.1 * 0.5 * 2.2, half_ball = 2.0 / 3.0 * glm::pi<double>() * 0.125;
+    const double sagitta = made.lattice.step * made.lattice.step / (8.0 * 0.5) * 2.0;
+    EXPECT_LE(quality.volume, slab + half_ball);
+    EXPECT_GE(quality.volume, slab + half_ball - 2.0 * glm::pi<double>() * 0.25 * sagitta);
+    std::size_t walls = 0, own = 0;
+    for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
+        const glm::dvec3& p = made.mesh.position_world[made.mesh.triangles[t][0]];
+        const bool bare = made.mesh.material[t] == sdf::kNoMaterial;
+        (bare ? walls : own) += 1;
+        if (bare) {
+            EXPECT_LT(p.y, 1e-9);
+        }
+    }
+    EXPECT_GT(walls, 9u);
+    EXPECT_GT(own, 100u);
+}
+
 TEST(MeshEmbedding, TellsWhichTrianglesMeet) {
     const std::vector<glm::dvec3> x{{0, 0, 0},  {1, 0, 0},       {0, 1, 0},    {0.2, 0.2, -1}, {0.2, 0.2, 1},
                                     {5, 5, 1},  {2, 0, 0},       {1, 1, 0},    {0.1, 0.1, 0},  {0.9, 0.9, 0},
