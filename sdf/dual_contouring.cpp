@@ -21,7 +21,9 @@ namespace {
 constexpr double kInside = 0.02;
 /// Of a cell's side: vertices of different cells nearer than that would be the same.
 constexpr double kApart = 0.05;
-constexpr int kMostMendings = 12;
+/// Of the distance between two crossings of one line: how far their middle goes off it.
+constexpr double kBulge = 0.1;
+constexpr int kMostMendings = 20;
 /// Of a cell's side: edges whose middles are further off the surface are divided.
 constexpr double kSharpMiddle = 0.015, kSmoothMiddle = 0.06;
 /// Of a cell's side: where the mesh is further off the surface than that, cells are divided.
@@ -54,7 +56,7 @@ class DualContouring {
         diagonal_.assign(complex_.polygons.size(), 0xff);
         for (int round = 0;; ++round) {
             triangulate();
-            if (round == kMostMendings || !mend()) break;
+            if (round == kMostMendings || !mend()) { if (round == kMostMendings) fprintf(stderr, "UNMENDED\n"); break; }
         }
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
@@ -263,8 +265,20 @@ class DualContouring {
         const DualPolygon& other = complex_.polygons[q];
         const auto middle = static_cast<std::uint32_t>(mesh_.position_world.size());
         mesh_.position_world.push_back(0.5 * (polygon.crossing.point + other.crossing.point));
+        if (oneLine(polygon, other)) {
+            // Into the face, away from its border.
+            const int along = 3 - sideAxis(polygon, k) - polygon.axis;
+            const double off = kBulge * glm::distance(polygon.crossing.point, other.crossing.point);
+            mesh_.position_world.back()[along] += k == 1 || k == 2 ? off : -off;
+        }
         middles_[p][k] = middle;
         middles_[q][polygon.across_side[k]] = middle;
+    }
+
+    /// Both edges are parts of a larger cell's.
+    static bool oneLine(const DualPolygon& a, const DualPolygon& b) {
+        const int u = (a.axis + 1) % 3, v = (a.axis + 2) % 3;
+        return a.axis == b.axis && a.corner[u] == b.corner[u] && a.corner[v] == b.corner[v];
     }
 
     bool hasMiddle(std::uint32_t p) const {
@@ -392,6 +406,7 @@ class DualContouring {
     bool mend() {
         const auto pairs =
             meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_, 1.5 * lattice_.step);
+        if (getenv("M10V")) { fprintf(stderr, " pairs %zu", pairs.size()); if (pairs.size() < 12) for (auto& [a,b] : pairs) { auto& pa = complex_.polygons[owner_[a]]; auto& pb = complex_.polygons[owner_[b]]; fprintf(stderr, " [%d%d%d %d%d%d l%d,%d loops", int(pa.mixed), int(divided_[owner_[a]]), owner_[a]==owner_[b], int(pb.mixed), int(divided_[owner_[b]]), 0, pa.level, pb.level); for (auto v : pa.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); for (auto v : pb.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); fprintf(stderr, "]\n"); } }
         if (pairs.empty()) return false;
         std::vector<std::uint32_t> polygons;
         for (const auto& [a, b] : pairs) polygons.push_back(owner_[a]), polygons.push_back(owner_[b]);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/triangle_tree.h"
+
 namespace edgewise::sdf {
 namespace {
 
@@ -148,10 +150,6 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
                                                                   std::span<const Triangle> triangles,
                                                                   const std::vector<bool>& doubtful,
                                                                   double cell) {
-    struct Entry {
-        std::uint64_t key;
-        std::uint32_t triangle;
-    };
     const auto cellOf = [&](const glm::dvec3& p) { return glm::ivec3(glm::floor(p / cell)); };
     const auto keyOf = [](int i, int j, int k) {
         constexpr std::uint64_t kMask = (1u << 21) - 1;
@@ -170,33 +168,32 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
         if (doubtful[t]) forCells(triangles[t], [&](std::uint64_t key) { asked.push_back(key); });
     std::sort(asked.begin(), asked.end());
     asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    std::vector<Entry> entries;
     if (asked.empty()) return {};
     // A bitmap first: most triangles are nowhere near.
     constexpr std::size_t kBits = std::size_t(1) << 22;
     const auto hashed = [](std::uint64_t key) { return (key * 0x9e3779b97f4a7c15ull) >> 42; };
     std::vector<bool> seen(kBits, false);
     for (const std::uint64_t key : asked) seen[hashed(key)] = true;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        forCells(triangles[t], [&](std::uint64_t key) {
-            if (seen[hashed(key)] && std::binary_search(asked.begin(), asked.end(), key))
-                entries.push_back({key, t});
-        });
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-        return a.key < b.key || (a.key == b.key && a.triangle < b.triangle);
-    });
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        bool near = false;
+        forCells(triangles[t], [&](std::uint64_t key) { near = near || seen[hashed(key)]; });
+        if (near) some.push_back(t);
+    }
+    const TriangleTree tree(x, triangles, std::move(some));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::size_t begin = 0, end; begin < entries.size(); begin = end) {
-        for (end = begin; end < entries.size() && entries[end].key == entries[begin].key;) ++end;
-        for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t j = i + 1; j < end; ++j) {
-                const std::uint32_t a = entries[i].triangle, b = entries[j].triangle;
-                if ((doubtful[a] || doubtful[b]) && trianglesMeet(x, triangles[a], triangles[b]))
-                    pairs.push_back({a, b});
-            }
+    for (std::uint32_t a = 0; a < triangles.size(); ++a) {
+        if (!doubtful[a]) continue;
+        const Triangle& t = triangles[a];
+        const glm::dvec3 low = glm::min(x[t[0]], glm::min(x[t[1]], x[t[2]])),
+                         high = glm::max(x[t[0]], glm::max(x[t[1]], x[t[2]]));
+        tree.forNear(low, high, [&](std::uint32_t b) {
+            if (b == a || (doubtful[b] && b < a)) return;
+            if (trianglesMeet(x, triangles[std::min(a, b)], triangles[std::max(a, b)]))
+                pairs.push_back({std::min(a, b), std::max(a, b)});
+        });
     }
     std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

@@ -41,24 +41,39 @@ double squaredDistance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec
 TriangleTree::TriangleTree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles)
     : positions_(positions), triangles_(triangles), order_(triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    for (const Triangle& t : triangles)
-        centre_.push_back((positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3.0);
+    build();
+}
+
+TriangleTree::TriangleTree(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+                           std::vector<std::uint32_t> some)
+    : positions_(positions), triangles_(triangles), order_(std::move(some)) {
+    build();
+}
+
+void TriangleTree::build() {
+    keys_.resize(order_.size());
+    for (std::size_t n = 0; n < order_.size(); ++n) {
+        const Triangle& t = triangles_[order_[n]];
+        keys_[n] = {positions_[t[0]] + positions_[t[1]] + positions_[t[2]], order_[n]};
+    }
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+    for (std::size_t n = 0; n < order_.size(); ++n) order_[n] = keys_[n].triangle;
+    keys_ = {};
 }
 
 void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
     const std::size_t own = nodes_.size();
     Node node{glm::dvec3(1e300), glm::dvec3(-1e300), begin, end - begin};
     for (std::uint32_t n = begin; n < end; ++n)
-        for (const std::uint32_t v : triangles_[order_[n]])
+        for (const std::uint32_t v : triangles_[keys_[n].triangle])
             node.low = glm::min(node.low, positions_[v]), node.high = glm::max(node.high, positions_[v]);
     nodes_.push_back(node);
     if (end - begin <= kLeaf) return;
     const glm::dvec3 size = node.high - node.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) { return centre_[a][axis] < centre_[b][axis]; });
+    std::nth_element(keys_.begin() + begin, keys_.begin() + middle, keys_.begin() + end,
+                     [&](const Key& a, const Key& b) { return a.centre[axis] < b.centre[axis]; });
     build(begin, middle);
     nodes_[own].begin = static_cast<std::uint32_t>(nodes_.size()), nodes_[own].count = 0;
     build(middle, end);
@@ -66,7 +81,7 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
 
 bool TriangleTree::near(const glm::dvec3& p, double distance) const {
     const double most = distance * distance;
-    std::uint32_t waiting[64];
+    std::uint32_t waiting[kDeepest];
     int count = 0;
     if (!nodes_.empty()) waiting[count++] = 0;
     while (count > 0) {
