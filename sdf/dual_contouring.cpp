@@ -63,6 +63,7 @@ class DualContouring {
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
         counts_.added =
             refineMesh(mesh_, tape, lattice_.step, {kSharpMiddle * lattice_.step, kSmoothMiddle * lattice_.step});
+        if (const char* t = getenv("M10T")) { findMaterials(tape, mesh_); const double x = atof(t); counts_.collapsed += thinOut(mesh_, tape, lattice_.step, {x * lattice_.step, x * lattice_.step}); }
         return std::move(mesh_);
     }
 

@@ -3,15 +3,10 @@
 
 #include "sdf/dual_cells.h"
 #include "sdf/mesh_attributes.h"
+#include "sdf/mesh_limits.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise::sdf {
-
-/// Lengths in the world: how far a mesh and its surface may be apart.
-struct MeshLimits {
-    double sharp;   ///< in bricks with a sharp edge
-    double smooth;  ///< elsewhere
-};
 
 /// Bricks in which more than the limits was found, in order: from the mesh's edges' middles and triangles'
 /// centres to the surface; from where the surface crosses cells' edges, and from where it is nearest to

@@ -37,7 +37,7 @@ struct Diamond {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits)
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const MeshLimits& limits)
         : mesh_(mesh),
           tape_(tape),
           step_(step),
@@ -261,7 +261,7 @@ class Refiner {
     SurfaceMesh& mesh_;
     const TapeAt& tape_;
     const double step_;
-    const RefineLimits limits_;
+    const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
     std::vector<bool> stuck_,
         touched_;  ///< triangles of this round; vertices that could not go where they belong
@@ -271,7 +271,7 @@ class Refiner {
 
 }  // namespace
 
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits) {
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const MeshLimits& limits) {
     mesh.material.clear(), mesh.normal_world.clear();
     return Refiner(mesh, tape, step, limits).run();
 }
