@@ -59,7 +59,7 @@ class Check {
     void takeMeshPlace(const glm::dvec3& p, const Triangle& t) {
         const std::uint32_t b = brickAt(p);
         if (b != kNoBrick) {
-            if (!off_[b] && surfaceIsFar(tape_(p), p, limitOf(b))) off_[b] = true;
+            if (!off_[b] && surfaceIsFar(tape_(p), p, limitOf(b))) { off_[b] = true; if (getenv("M10W")) fprintf(stderr, "mesh place %.5f %.5f %.5f |f| %.5f level %d\n", p.x,p.y,p.z, valueAt(tape_(p),p), complex_.bricks.bricks[b].level); }
             return;
         }
         if (!surfaceIsFar(tape_(p), p, limits_.sharp)) return;
@@ -77,7 +77,7 @@ class Check {
     }
 
     void takePlace(std::uint32_t b, const glm::dvec3& p) {
-        if (!off_[b] && !tree_.near(p, limitOf(b))) off_[b] = true;
+        if (!off_[b] && !tree_.near(p, limitOf(b))) { off_[b] = true; if (getenv("M10W")) fprintf(stderr, "surf place %.5f %.5f %.5f level %d\n", p.x,p.y,p.z, complex_.bricks.bricks[b].level); }
     }
 
     void takeBrick(std::uint32_t b) {

@@ -12,7 +12,7 @@
 namespace edgewise::sdf {
 namespace {
 
-constexpr int kRounds = 8, kRetreats = 12;
+constexpr int kRounds = 10, kRetreats = 12, kMostStuck = 2;
 /// A new vertex is worth it when what is off becomes less than this part.
 constexpr double kGain = 0.8;
 /// Of an edge's length: from its middle to where it is divided.
@@ -29,6 +29,10 @@ struct Added {
     glm::dvec3 middle;
     int retreats = 0;
 };
+struct Shifted {
+    std::uint32_t vertex;
+    glm::dvec3 from;
+};
 /// Two triangles' common edge a-b, and their other corners.
 struct Diamond {
     std::uint32_t a, b;
@@ -43,7 +47,7 @@ class Refiner {
           step_(step),
           limits_(limits),
           around_(mesh.position_world.size()),
-          stuck_(mesh.position_world.size(), false) {
+          stuck_(mesh.position_world.size(), 0) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             for (const std::uint32_t v : mesh.triangles[t]) around_[v].push_back(t);
     }
@@ -54,17 +58,35 @@ class Refiner {
         std::size_t all = 0;
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
             touched_.assign(mesh_.triangles.size(), false);
-            added_.clear(), turned_.clear();
+            added_.clear(), turned_.clear(), shifted_.clear();
             std::vector<std::uint32_t> later;
             for (const Candidate& c : candidatesOf(active)) improve(c, later);
             all += added_.size();
-            if (added_.empty() && turned_.empty()) break;
+            if (added_.empty() && turned_.empty() && shifted_.empty()) break;
             retreat();
             active = std::move(later);
             for (std::uint32_t t = 0; t < touched_.size(); ++t)
                 if (touched_[t]) active.push_back(t);
             std::sort(active.begin(), active.end());
             active.erase(std::unique(active.begin(), active.end()), active.end());
+        }
+        if (getenv("M10F")) {
+            int stuck = 0, place = 0, ok = 0, twin = 0;
+            double worst[4] = {};
+            std::vector<std::uint32_t> every(mesh_.triangles.size());
+            for (std::uint32_t t = 0; t < every.size(); ++t) every[t] = t;
+            auto keep = stuck_;
+            stuck_.assign(stuck_.size(), 0);
+            turned_.clear();
+            for (const Candidate& c : candidatesOf(every)) {
+                Diamond d; glm::dvec3 p;
+                if (keep[c.a] > kMostStuck || keep[c.b] > kMostStuck) { ++stuck; worst[0] = std::max(worst[0], c.off); continue; }
+                if (!diamondOf(c.a, c.b, d)) { ++twin; continue; }
+                if (!shouldTurn(c, d) && !placeFor(c, d.tips, p)) { ++place, worst[1] = std::max(worst[1], c.off);
+                   fprintf(stderr, "nop %.5f %.5f %.5f off %.5f len %.5f\n", at(c.a).x, at(c.a).y, at(c.a).z, c.off, glm::distance(at(c.a), at(c.b))); }
+                else ++ok, worst[2] = std::max(worst[2], c.off);
+            }
+            fprintf(stderr, "left: stuck %d (%g) no place %d (%g) possible %d (%g) twin %d\n", stuck, worst[0], place, worst[1], ok, worst[2], twin);
         }
         return all;
     }
@@ -81,7 +103,7 @@ class Refiner {
         for (const std::uint32_t t : triangles)
             for (int i = 0; i < 3; ++i) {
                 std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
-                if (stuck_[a] || stuck_[b]) continue;
+                if (stuck_[a] > kMostStuck || stuck_[b] > kMostStuck) continue;
                 if (a > b) std::swap(a, b);
                 const double off = offBetween(at(a), at(b));
                 if (off > std::min(limits_.sharp, limits_.smooth)) found.push_back({a, b, off});
@@ -123,8 +145,53 @@ class Refiner {
         }
         if (shouldTurn(c, d))
             turn(d), turned_.push_back(d);
-        else
-            divide(c, d);
+        else if (!divide(c, d) && !shift(c.a))
+            shift(c.b);
+    }
+
+    /// How far the triangles around a vertex would be off the surface with it there.
+    double offWith(std::uint32_t v, const glm::dvec3& p) const {
+        double most = std::abs(valueAt(tape_(p), p));
+        for (const std::uint32_t t : around_[v]) {
+            const auto [a, b] = othersOf(mesh_.triangles[t], v);
+            const glm::dvec3 centre = (p + at(a) + at(b)) / 3.0;
+            most = std::max({most, offBetween(p, at(a)), std::abs(valueAt(tape_(centre), centre))});
+        }
+        return most;
+    }
+    /// In the triangle's order.
+    static std::array<std::uint32_t, 2> othersOf(const Triangle& t, std::uint32_t v) {
+        return t[0] == v   ? std::array{t[1], t[2]}
+               : t[1] == v ? std::array{t[2], t[0]}
+                           : std::array{t[0], t[1]};
+    }
+    /// To the sharp edge or corner that its neighbourhood has, or to the surface, where that is nearer all
+    /// around.
+    bool shift(std::uint32_t v) {
+        for (const std::uint32_t t : around_[v])
+            if (touched_[t]) return false;
+        const glm::dvec3 from = at(v);
+        const TapeView tape = tape_(from);
+        double best = kGain * offWith(v, from), reach = 0.0;
+        glm::dvec3 to = from;
+        std::vector<TangentPlane> planes;
+        for (const std::uint32_t t : around_[v]) {
+            const glm::dvec3 side = at(othersOf(mesh_.triangles[t], v)[0]) - from;
+            reach = std::max(reach, glm::length(side));
+            for (const double part : {0.3, 0.7})
+                if (planes.size() < kMostPlanes) addPlane(tape, from + part * side, planes);
+        }
+        const auto attempt = [&](const glm::dvec3& p) {
+            if (!(glm::distance(p, from) <= reach)) return;
+            if (const double off = offWith(v, p); off < best) best = off, to = p;
+        };
+        if (!planes.empty()) attempt(featurePoint(tape, planes, from, step_).place_world);
+        attempt(onSurface(tape, from));
+        if (to == from) return false;
+        shifted_.push_back({v, from});
+        mesh_.position_world[v] = to;
+        for (const std::uint32_t t : around_[v]) touched_[t] = true;
+        return true;
     }
 
     double offOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -162,14 +229,15 @@ class Refiner {
         touched_[s] = touched_[t] = true;
     }
 
-    void divide(const Candidate& c, const Diamond& d) {
+    bool divide(const Candidate& c, const Diamond& d) {
         glm::dvec3 place;
-        if (!placeFor(c, d.tips, place)) return;
+        if (!placeFor(c, d.tips, place)) return false;
         const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
         mesh_.position_world.push_back(place);
-        around_.emplace_back(), stuck_.push_back(false);
+        around_.emplace_back(), stuck_.push_back(0);
         added_.push_back({v, 0.5 * (at(c.a) + at(c.b))});
         for (int i = 0; i < 2; ++i) splitTriangle(d.sides[i], c.a, c.b, d.tips[i], v);
+        return true;
     }
 
     /// The half at b becomes a triangle of its own.
@@ -224,6 +292,7 @@ class Refiner {
         for (int n = 0; n < kRetreats; ++n) {
             const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_, 1.5 * step_);
             if (pairs.empty()) return;
+            shiftBack(pairs);
             turnBack(pairs);
             std::vector<std::uint32_t> back;
             const std::uint32_t first = added_.empty() ? 0xffffffffu : added_.front().vertex;
@@ -236,12 +305,23 @@ class Refiner {
             for (const std::uint32_t i : back) {
                 Added& added = added_[i];
                 glm::dvec3& place = mesh_.position_world[added.vertex];
-                stuck_[added.vertex] = true;
+                ++stuck_[added.vertex];
                 place = ++added.retreats == 1 ? 0.5 * (place + added.middle) : added.middle;
             }
         }
     }
 
+    void shiftBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+        std::erase_if(shifted_, [&](const Shifted& s) {
+            const auto own = [&](std::uint32_t t) { return holds(mesh_.triangles[t], s.vertex); };
+            if (std::none_of(pairs.begin(), pairs.end(),
+                             [&](const auto& pair) { return own(pair.first) || own(pair.second); }))
+                return false;
+            mesh_.position_world[s.vertex] = s.from;
+            ++stuck_[s.vertex];
+            return true;
+        });
+    }
     void turnBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
         std::vector<std::uint32_t> meeting;
         for (const auto& [s, t] : pairs) meeting.push_back(s), meeting.push_back(t);
@@ -253,7 +333,7 @@ class Refiner {
             if (!meets(d.sides[0]) && !meets(d.sides[1])) return false;
             // Seen from the other diagonal: its ends are the tips, each side's third corner an end.
             turn({d.tips[0], d.tips[1], d.sides, {d.a, d.b}});
-            stuck_[d.a] = stuck_[d.b] = true;
+            ++stuck_[d.a], ++stuck_[d.b];
             return true;
         });
     }
@@ -263,10 +343,11 @@ class Refiner {
     const double step_;
     const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<bool> stuck_,
-        touched_;  ///< triangles of this round; vertices that could not go where they belong
+    std::vector<int> stuck_;      ///< how often vertices could not go where they belong
+    std::vector<bool> touched_;  ///< triangles of this round
     std::vector<Added> added_;
     std::vector<Diamond> turned_;
+    std::vector<Shifted> shifted_;
 };
 
 }  // namespace
