@@ -25,9 +25,11 @@ constexpr double kApart = 0.05;
 constexpr double kBulge = 0.1;
 constexpr int kMostMendings = 20;
 /// Of a cell's side: edges whose middles are further off the surface are divided.
-constexpr double kSharpMiddle = 0.015, kSmoothMiddle = 0.06;
+constexpr double kSharpMiddle = 0.01, kSmoothMiddle = 0.04;
 /// Of a cell's side: where the mesh is further off the surface than that, cells are divided.
-constexpr double kSharpOff = 0.019, kSmoothOff = 0.09;
+constexpr double kSharpOff = 0.016, kSmoothOff = 0.085;
+/// Of a cell's side: vertices are left out where the mesh stays as near as that.
+constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
 constexpr int kSettlings = 3;
 /// Of a cell's side: what is off the surface by no more is left as it is.
 constexpr double kSettled = 0.01;
@@ -62,12 +64,22 @@ class DualContouring {
         findMaterials(tape, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
         counts_.added =
-            refineMesh(mesh_, tape, lattice_.step, {kSharpMiddle * lattice_.step, kSmoothMiddle * lattice_.step});
-        if (const char* t = getenv("M10T")) { findMaterials(tape, mesh_); const double x = atof(t); counts_.collapsed += thinOut(mesh_, tape, lattice_.step, {x * lattice_.step, x * lattice_.step}); }
+            refineMesh(mesh_, tape, lattice_.step, sharpBricks(), {kSharpMiddle * lattice_.step, kSmoothMiddle * lattice_.step});
+        findMaterials(tape, mesh_);
+        counts_.collapsed += thinOut(mesh_, tape, lattice_.step, {kSharpThin * lattice_.step, kSmoothThin * lattice_.step});
         return std::move(mesh_);
     }
 
     const DualComplex& complex() const { return complex_; }
+    /// Those of vertices on sharp edges, and of their neighbours.
+    SharpBricks sharpBricks() const {
+        std::vector<bool> sharp(complex_.bricks.bricks.size(), false);
+        const auto isSharp = [&](std::uint32_t v) { return complex_.vertices[v].rank > 1; };
+        for (const DualPolygon& polygon : complex_.polygons)
+            if (std::any_of(polygon.vertex.begin(), polygon.vertex.end(), isSharp))
+                for (const std::uint32_t v : polygon.vertex) sharp[complex_.vertices[v].brick] = true;
+        return {lattice_, complex_.bricks, std::move(sharp)};
+    }
     BrickList takeBricks() { return std::move(complex_.bricks); }
 
   private:
@@ -406,7 +418,7 @@ class DualContouring {
     /// Looks for triangles that meet, and takes more care of their polygons. False: there are none.
     bool mend() {
         const auto pairs =
-            meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_, 1.5 * lattice_.step);
+            meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_);
         if (getenv("M10V")) { fprintf(stderr, " pairs %zu", pairs.size()); if (pairs.size() < 12) for (auto& [a,b] : pairs) { auto& pa = complex_.polygons[owner_[a]]; auto& pb = complex_.polygons[owner_[b]]; fprintf(stderr, " [%d%d%d %d%d%d l%d,%d loops", int(pa.mixed), int(divided_[owner_[a]]), owner_[a]==owner_[b], int(pb.mixed), int(divided_[owner_[b]]), 0, pa.level, pb.level); for (auto v : pa.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); for (auto v : pb.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); fprintf(stderr, "]\n"); } }
         if (pairs.empty()) return false;
         std::vector<std::uint32_t> polygons;
@@ -477,7 +489,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         DualContouring contouring(request, std::move(bricks), counts);
         SurfaceMesh mesh = contouring.run();
         std::vector<std::uint32_t> off;
-        if (round < rounds) off = bricksOff(mesh, request, contouring.complex(), limits);
+        if (round < rounds) off = bricksOff(mesh, request, contouring.complex(), contouring.sharpBricks(), limits);
         bricks = contouring.takeBricks();
         std::erase_if(off, [&](std::uint32_t b) { return bricks.bricks[b].level == kMostLevels; });
         fprintf(stderr, "round %d tri %zu bricks %zu off %zu mended %zu\n", round, mesh.triangles.size(), bricks.bricks.size(), off.size(), size_t(counts.mended));

@@ -26,12 +26,7 @@ TapeAt::TapeAt(const Tape& whole, const Lattice& lattice, const BrickList& brick
     : whole_(whole), lattice_(lattice), bricks_(bricks) {}
 
 TapeView TapeAt::operator()(const glm::dvec3& p) const {
-    glm::ivec3 unit;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double place = (p[axis] - lattice_.low_world[axis]) / lattice_.step * kUnits;
-        unit[axis] = static_cast<int>(std::floor(std::min(std::max(place, -1.0), 1e9)));
-    }
-    const std::uint32_t brick = bricks_.leafAt(lattice_, unit).brick;
+    const std::uint32_t brick = bricks_.leafAt(lattice_, lattice_.unitAt(p)).brick;
     return brick == kNoBrick ? TapeView(whole_) : bricks_.bricks[brick].tape;
 }
 

@@ -18,18 +18,16 @@ constexpr double kOnSurface = 1e-6;
 class Check {
   public:
     Check(const SurfaceMesh& mesh, const MeshRequest& request, const DualComplex& complex,
-          const MeshLimits& limits)
+          const SharpBricks& sharp, const MeshLimits& limits)
         : mesh_(mesh),
           request_(request),
           lattice_(request.lattice),
           complex_(complex),
+          sharp_(sharp),
           limits_(limits),
           tape_(request.tape, lattice_, complex.bricks),
           tree_(mesh.position_world, mesh.triangles),
-          sharp_(complex.bricks.bricks.size(), false),
-          off_(sharp_.size(), false) {
-        for (const DualVertex& v : complex.vertices) sharp_[v.brick] = sharp_[v.brick] || v.rank > 1;
-    }
+          off_(complex.bricks.bricks.size(), false) {}
 
     std::vector<std::uint32_t> run() {
         for (const Triangle& t : mesh_.triangles) takeTriangle(t);
@@ -46,8 +44,7 @@ class Check {
     double limitOf(std::uint32_t b) const { return sharp_[b] ? limits_.sharp : limits_.smooth; }
 
     std::uint32_t brickAt(const glm::dvec3& p) const {
-        const glm::dvec3 unit = (p - lattice_.low_world) / lattice_.step * double(kUnits);
-        return complex_.bricks.leafAt(lattice_, glm::ivec3(glm::floor(unit))).brick;
+        return complex_.bricks.leafAt(lattice_, lattice_.unitAt(p)).brick;
     }
 
     void takeTriangle(const Triangle& t) {
@@ -59,7 +56,7 @@ class Check {
     void takeMeshPlace(const glm::dvec3& p, const Triangle& t) {
         const std::uint32_t b = brickAt(p);
         if (b != kNoBrick) {
-            if (!off_[b] && surfaceIsFar(tape_(p), p, limitOf(b))) { off_[b] = true; if (getenv("M10W")) fprintf(stderr, "mesh place %.5f %.5f %.5f |f| %.5f level %d\n", p.x,p.y,p.z, valueAt(tape_(p),p), complex_.bricks.bricks[b].level); }
+            if (!off_[b] && surfaceIsFar(tape_(p), p, limitOf(b))) off_[b] = true;
             return;
         }
         if (!surfaceIsFar(tape_(p), p, limits_.sharp)) return;
@@ -77,7 +74,7 @@ class Check {
     }
 
     void takePlace(std::uint32_t b, const glm::dvec3& p) {
-        if (!off_[b] && !tree_.near(p, limitOf(b))) { off_[b] = true; if (getenv("M10W")) fprintf(stderr, "surf place %.5f %.5f %.5f level %d\n", p.x,p.y,p.z, complex_.bricks.bricks[b].level); }
+        if (!off_[b] && !tree_.near(p, limitOf(b))) off_[b] = true;
     }
 
     void takeBrick(std::uint32_t b) {
@@ -114,17 +111,19 @@ class Check {
     const MeshRequest& request_;
     const Lattice& lattice_;
     const DualComplex& complex_;
+    const SharpBricks& sharp_;
     const MeshLimits limits_;
     const TapeAt tape_;
     const TriangleTree tree_;
-    std::vector<bool> sharp_, off_;
+    std::vector<bool> off_;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> bricksOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                     const DualComplex& complex, const MeshLimits& limits) {
-    return Check(mesh, request, complex, limits).run();
+                                     const DualComplex& complex, const SharpBricks& sharp,
+                                     const MeshLimits& limits) {
+    return Check(mesh, request, complex, sharp, limits).run();
 }
 
 }  // namespace edgewise::sdf

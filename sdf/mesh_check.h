@@ -12,6 +12,7 @@ namespace edgewise::sdf {
 /// centres to the surface; from where the surface crosses cells' edges, and from where it is nearest to
 /// cells' centres, to the mesh. What the mesh has missed whole is found so too.
 std::vector<std::uint32_t> bricksOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                     const DualComplex& complex, const MeshLimits& limits);
+                                     const DualComplex& complex, const SharpBricks& sharp,
+                                     const MeshLimits& limits);
 
 }  // namespace edgewise::sdf

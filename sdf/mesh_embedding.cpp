@@ -148,40 +148,10 @@ bool trianglesMeet(Points x, const Triangle& a, const Triangle& b) {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
                                                                   std::span<const Triangle> triangles,
-                                                                  const std::vector<bool>& doubtful,
-                                                                  double cell) {
-    const auto cellOf = [&](const glm::dvec3& p) { return glm::ivec3(glm::floor(p / cell)); };
-    const auto keyOf = [](int i, int j, int k) {
-        constexpr std::uint64_t kMask = (1u << 21) - 1;
-        return (static_cast<std::uint64_t>(i) & kMask) << 42 | (static_cast<std::uint64_t>(j) & kMask) << 21 |
-               (static_cast<std::uint64_t>(k) & kMask);
-    };
-    const auto forCells = [&](const Triangle& t, const auto& f) {
-        const glm::ivec3 low = cellOf(glm::min(x[t[0]], glm::min(x[t[1]], x[t[2]])));
-        const glm::ivec3 high = cellOf(glm::max(x[t[0]], glm::max(x[t[1]], x[t[2]])));
-        for (int k = low.z; k <= high.z; ++k)
-            for (int j = low.y; j <= high.y; ++j)
-                for (int i = low.x; i <= high.x; ++i) f(keyOf(i, j, k));
-    };
-    std::vector<std::uint64_t> asked;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        if (doubtful[t]) forCells(triangles[t], [&](std::uint64_t key) { asked.push_back(key); });
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    if (asked.empty()) return {};
-    // A bitmap first: most triangles are nowhere near.
-    constexpr std::size_t kBits = std::size_t(1) << 22;
-    const auto hashed = [](std::uint64_t key) { return (key * 0x9e3779b97f4a7c15ull) >> 42; };
-    std::vector<bool> seen(kBits, false);
-    for (const std::uint64_t key : asked) seen[hashed(key)] = true;
-    std::vector<std::uint32_t> some;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        bool near = false;
-        forCells(triangles[t], [&](std::uint64_t key) { near = near || seen[hashed(key)]; });
-        if (near) some.push_back(t);
-    }
-    const TriangleTree tree(x, triangles, std::move(some));
+                                                                  const std::vector<bool>& doubtful) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    if (std::find(doubtful.begin(), doubtful.end(), true) == doubtful.end()) return pairs;
+    const TriangleTree tree(x, triangles);
     for (std::uint32_t a = 0; a < triangles.size(); ++a) {
         if (!doubtful[a]) continue;
         const Triangle& t = triangles[a];
@@ -189,8 +159,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
                          high = glm::max(x[t[0]], glm::max(x[t[1]], x[t[2]]));
         tree.forNear(low, high, [&](std::uint32_t b) {
             if (b == a || (doubtful[b] && b < a)) return;
-            if (trianglesMeet(x, triangles[std::min(a, b)], triangles[std::max(a, b)]))
-                pairs.push_back({std::min(a, b), std::max(a, b)});
+            const auto [first, second] = std::minmax(a, b);
+            if (trianglesMeet(x, triangles[first], triangles[second])) pairs.push_back({first, second});
         });
     }
     std::sort(pairs.begin(), pairs.end());

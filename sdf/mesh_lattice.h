@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <vector>
@@ -34,6 +35,11 @@ struct Lattice {
     }
     glm::dvec3 corner(const glm::ivec3& u) const {
         return {coordinate(0, u.x), coordinate(1, u.y), coordinate(2, u.z)};
+    }
+    /// The cube of one unit that holds a point; off the lattice where the point is.
+    glm::ivec3 unitAt(const glm::dvec3& p_world) const {
+        const glm::dvec3 place = (p_world - low_world) / step * static_cast<double>(kUnits);
+        return glm::ivec3(glm::floor(glm::clamp(place, -1.0, 1e9)));
     }
     glm::ivec3 bricks() const { return cells / kBrickCells; }
     glm::ivec3 units() const { return cells * kUnits; }

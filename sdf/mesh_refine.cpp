@@ -41,10 +41,11 @@ struct Diamond {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const MeshLimits& limits)
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp, const MeshLimits& limits)
         : mesh_(mesh),
           tape_(tape),
           step_(step),
+          sharp_(sharp),
           limits_(limits),
           around_(mesh.position_world.size()),
           stuck_(mesh.position_world.size(), 0) {
@@ -70,24 +71,6 @@ class Refiner {
             std::sort(active.begin(), active.end());
             active.erase(std::unique(active.begin(), active.end()), active.end());
         }
-        if (getenv("M10F")) {
-            int stuck = 0, place = 0, ok = 0, twin = 0;
-            double worst[4] = {};
-            std::vector<std::uint32_t> every(mesh_.triangles.size());
-            for (std::uint32_t t = 0; t < every.size(); ++t) every[t] = t;
-            auto keep = stuck_;
-            stuck_.assign(stuck_.size(), 0);
-            turned_.clear();
-            for (const Candidate& c : candidatesOf(every)) {
-                Diamond d; glm::dvec3 p;
-                if (keep[c.a] > kMostStuck || keep[c.b] > kMostStuck) { ++stuck; worst[0] = std::max(worst[0], c.off); continue; }
-                if (!diamondOf(c.a, c.b, d)) { ++twin; continue; }
-                if (!shouldTurn(c, d) && !placeFor(c, d.tips, p)) { ++place, worst[1] = std::max(worst[1], c.off);
-                   fprintf(stderr, "nop %.5f %.5f %.5f off %.5f len %.5f\n", at(c.a).x, at(c.a).y, at(c.a).z, c.off, glm::distance(at(c.a), at(c.b))); }
-                else ++ok, worst[2] = std::max(worst[2], c.off);
-            }
-            fprintf(stderr, "left: stuck %d (%g) no place %d (%g) possible %d (%g) twin %d\n", stuck, worst[0], place, worst[1], ok, worst[2], twin);
-        }
         return all;
     }
 
@@ -106,7 +89,7 @@ class Refiner {
                 if (stuck_[a] > kMostStuck || stuck_[b] > kMostStuck) continue;
                 if (a > b) std::swap(a, b);
                 const double off = offBetween(at(a), at(b));
-                if (off > std::min(limits_.sharp, limits_.smooth)) found.push_back({a, b, off});
+                if (off > limits_.smooth || (off > limits_.sharp && sharp_.at(0.5 * (at(a) + at(b))))) found.push_back({a, b, off});
             }
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
@@ -290,7 +273,7 @@ class Refiner {
     /// New vertices whose triangles meet others go back to where they change nothing, edges turn back.
     void retreat() {
         for (int n = 0; n < kRetreats; ++n) {
-            const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_, 1.5 * step_);
+            const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_);
             if (pairs.empty()) return;
             shiftBack(pairs);
             turnBack(pairs);
@@ -341,6 +324,7 @@ class Refiner {
     SurfaceMesh& mesh_;
     const TapeAt& tape_;
     const double step_;
+    const SharpBricks& sharp_;
     const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
     std::vector<int> stuck_;      ///< how often vertices could not go where they belong
@@ -352,9 +336,9 @@ class Refiner {
 
 }  // namespace
 
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const MeshLimits& limits) {
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp, const MeshLimits& limits) {
     mesh.material.clear(), mesh.normal_world.clear();
-    return Refiner(mesh, tape, step, limits).run();
+    return Refiner(mesh, tape, step, sharp, limits).run();
 }
 
 }  // namespace edgewise::sdf

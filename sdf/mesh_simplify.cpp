@@ -273,7 +273,7 @@ std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
         Simplifier simplifier(mesh, step, kept, near);
         const std::size_t gone = simplifier.run();
         const auto pairs =
-            meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed(), 1.5 * step);
+            meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed());
         if (pairs.empty()) return gone;
         std::vector<std::uint32_t> around;
         for (const auto& [a, b] : pairs) around.push_back(a), around.push_back(b);
