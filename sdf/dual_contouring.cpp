@@ -30,6 +30,8 @@ constexpr double kSharpMiddle = 0.01, kSmoothMiddle = 0.04;
 constexpr double kSharpOff = 0.016, kSmoothOff = 0.085;
 /// Of a cell's side: vertices are left out where the mesh stays as near as that.
 constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
+/// The same three of a distance that is asked for.
+constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6;
 constexpr int kSettlings = 3;
 /// Of a cell's side: what is off the surface by no more is left as it is.
 constexpr double kSettled = 0.01;
@@ -48,7 +50,7 @@ class DualContouring {
         counts_.bricks = complex_.bricks.bricks.size(), counts_.cells = complex_.cells;
     }
 
-    SurfaceMesh run() {
+    SurfaceMesh run(const MeshLimits& middle) {
         placeVertices();
         settle();
         divided_.assign(complex_.polygons.size(), false);
@@ -58,15 +60,13 @@ class DualContouring {
         diagonal_.assign(complex_.polygons.size(), 0xff);
         for (int round = 0;; ++round) {
             triangulate();
-            if (round == kMostMendings || !mend()) { if (round == kMostMendings) fprintf(stderr, "UNMENDED\n"); break; }
+            if (round == kMostMendings || !mend()) break;
         }
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
         counts_.added =
-            refineMesh(mesh_, tape, lattice_.step, sharpBricks(), {kSharpMiddle * lattice_.step, kSmoothMiddle * lattice_.step});
-        findMaterials(tape, mesh_);
-        counts_.collapsed += thinOut(mesh_, tape, lattice_.step, {kSharpThin * lattice_.step, kSmoothThin * lattice_.step});
+            refineMesh(mesh_, tape, lattice_.step, sharpBricks(), middle);
         return std::move(mesh_);
     }
 
@@ -419,7 +419,6 @@ class DualContouring {
     bool mend() {
         const auto pairs =
             meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_);
-        if (getenv("M10V")) { fprintf(stderr, " pairs %zu", pairs.size()); if (pairs.size() < 12) for (auto& [a,b] : pairs) { auto& pa = complex_.polygons[owner_[a]]; auto& pb = complex_.polygons[owner_[b]]; fprintf(stderr, " [%d%d%d %d%d%d l%d,%d loops", int(pa.mixed), int(divided_[owner_[a]]), owner_[a]==owner_[b], int(pb.mixed), int(divided_[owner_[b]]), 0, pa.level, pb.level); for (auto v : pa.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); for (auto v : pb.vertex) fprintf(stderr, " %d", complex_.vertices[v].loops); fprintf(stderr, "]\n"); } }
         if (pairs.empty()) return false;
         std::vector<std::uint32_t> polygons;
         for (const auto& [a, b] : pairs) polygons.push_back(owner_[a]), polygons.push_back(owner_[b]);
@@ -480,28 +479,33 @@ class DualContouring {
 }  // namespace
 
 SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
-    BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
     const double step = request.lattice.step;
-    const MeshLimits limits{kSharpOff * step, kSmoothOff * step};
-    const int rounds = std::getenv("M10R") ? std::atoi(std::getenv("M10R")) : kMostLevels;
+    MeshLimits middle{kSharpMiddle * step, kSmoothMiddle * step}, most{kSharpOff * step, kSmoothOff * step},
+        thin{kSharpThin * step, kSmoothThin * step};
+    if (request.most_off) {
+        const double most_off = *request.most_off;
+        middle = {kMiddlePart * most_off, kMiddlePart * most_off};
+        most = {kOffPart * most_off, kOffPart * most_off};
+        thin = {kThinPart * most_off, kThinPart * most_off};
+    }
+    BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
+    SurfaceMesh mesh;
     for (int round = 0;; ++round) {
         counts = {};
         DualContouring contouring(request, std::move(bricks), counts);
-        SurfaceMesh mesh = contouring.run();
-        std::vector<std::uint32_t> off;
-        if (round < rounds) off = bricksOff(mesh, request, contouring.complex(), contouring.sharpBricks(), limits);
+        mesh = contouring.run(middle);
+        std::vector<PlaceOff> off;
+        if (round < kMostLevels)
+            off = placesOff(mesh, request, contouring.complex(), contouring.sharpBricks(), most);
         bricks = contouring.takeBricks();
-        std::erase_if(off, [&](std::uint32_t b) { return bricks.bricks[b].level == kMostLevels; });
-        fprintf(stderr, "round %d tri %zu bricks %zu off %zu mended %zu\n", round, mesh.triangles.size(), bricks.bricks.size(), off.size(), size_t(counts.mended));
-        if (off.empty()) {
-            const TapeAt tape(request.tape, request.lattice, bricks);
-            findMaterials(tape, mesh);
-            if (request.attributes) findNormals(tape, mesh);
-            return mesh;
-        }
-        for (const std::uint32_t b : off)
-            divideBrick(request.tape, request.lattice, request.bound_holds, b, bricks);
+        if (divideAt(off, request, bricks) == 0) break;
     }
+    const TapeAt tape(request.tape, request.lattice, bricks);
+    findMaterials(tape, mesh);
+    counts.collapsed += thinOut(mesh, tape, step, thin);
+    findMaterials(tape, mesh);
+    if (request.attributes) findNormals(tape, mesh);
+    return mesh;
 }
 
 }  // namespace edgewise::sdf

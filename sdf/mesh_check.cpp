@@ -14,6 +14,8 @@ namespace {
 constexpr int kPlaces = kBrickCells * kBrickCells * kBrickCells;
 /// Of a cell's side: a place counts as one on the surface.
 constexpr double kOnSurface = 1e-6;
+/// Fields are trusted to be no flatter.
+constexpr double kLeastSlope = 0.1;
 
 class Check {
   public:
@@ -26,23 +28,24 @@ class Check {
           sharp_(sharp),
           limits_(limits),
           tape_(request.tape, lattice_, complex.bricks),
-          tree_(mesh.position_world, mesh.triangles),
-          off_(complex.bricks.bricks.size(), false) {}
+          tree_(mesh.position_world, mesh.triangles) {}
 
-    std::vector<std::uint32_t> run() {
+    std::vector<PlaceOff> run() {
         for (const Triangle& t : mesh_.triangles) takeTriangle(t);
         for (const DualPolygon& p : complex_.polygons) takePlace(p.brick, p.crossing.point);
-        for (std::uint32_t b = 0; b < off_.size(); ++b)
+        for (std::uint32_t b = 0; b < complex_.bricks.bricks.size(); ++b)
             if (!complex_.bricks.bricks[b].divided) takeBrick(b);
-        std::vector<std::uint32_t> found;
-        for (std::uint32_t b = 0; b < off_.size(); ++b)
-            if (off_[b]) found.push_back(b);
-        return found;
+        return std::move(off_);
     }
 
   private:
     double limitOf(std::uint32_t b) const { return sharp_[b] ? limits_.sharp : limits_.smooth; }
 
+    /// What a cell's size does to the mesh is about as large as it.
+    void add(const glm::dvec3& p, std::uint32_t b, double times_limit) {
+        const int halved = times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
+        off_.push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved)});
+    }
     std::uint32_t brickAt(const glm::dvec3& p) const {
         return complex_.bricks.leafAt(lattice_, lattice_.unitAt(p)).brick;
     }
@@ -55,33 +58,32 @@ class Check {
     }
     void takeMeshPlace(const glm::dvec3& p, const Triangle& t) {
         const std::uint32_t b = brickAt(p);
-        if (b != kNoBrick) {
-            if (!off_[b] && surfaceIsFar(tape_(p), p, limitOf(b))) off_[b] = true;
-            return;
-        }
-        if (!surfaceIsFar(tape_(p), p, limits_.sharp)) return;
+        const double limit = b == kNoBrick ? limits_.sharp : limitOf(b), off = distanceAt(tape_(p), p, limit);
+        if (off <= limit) return;
+        if (b != kNoBrick) return add(p, b, off / limit);
         for (const std::uint32_t v : t)
-            if (const std::uint32_t other = brickAt(mesh_.position_world[v]); other != kNoBrick)
-                off_[other] = true;
+            if (const glm::dvec3& q = mesh_.position_world[v]; brickAt(q) != kNoBrick)
+                add(q, brickAt(q), off / limit);
     }
-    /// By the value, which is at most the bound times the distance, and by the slope.
-    bool surfaceIsFar(const TapeView& tape, const glm::dvec3& p, double limit) const {
+    /// About how far the surface is, by value and slope; 0 where that is certainly less than the limit.
+    double distanceAt(const TapeView& tape, const glm::dvec3& p, double limit) const {
         const double value = std::abs(valueAt(tape, p));
-        if (request_.bound_holds && value > limit * request_.tape.lipschitz) return true;
-        if (value < 0.1 * limit) return false;
+        if (value < kLeastSlope * limit) return 0.0;
         const double slope = glm::length(gradientAt(tape, p).gradient);
-        return value > limit * std::max(slope, 1e-3);
+        return value / std::max(slope, kLeastSlope);
     }
 
     void takePlace(std::uint32_t b, const glm::dvec3& p) {
-        if (!off_[b] && !tree_.near(p, limitOf(b))) off_[b] = true;
+        const double limit = limitOf(b);
+        if (tree_.near(p, limit)) return;
+        add(p, b, tree_.near(p, 2.0 * limit) ? 1.0 : tree_.near(p, 4.0 * limit) ? 3.0 : 5.0);
     }
 
     void takeBrick(std::uint32_t b) {
         const Brick& brick = complex_.bricks.bricks[b];
         const double side = lattice_.step / (1 << brick.level);
         const double reach = 0.5 * std::sqrt(3.0) * side * (request_.bound_holds ? request_.tape.lipschitz : 1e6);
-        for (int begin = 0; begin < kPlaces && !off_[b]; begin += kPointLanes) {
+        for (int begin = 0; begin < kPlaces; begin += kPointLanes) {
             LanePoints centres;
             for (int lane = 0; lane < kPointLanes; ++lane) {
                 const glm::dvec3 p = centreOf(brick, begin + lane, side);
@@ -115,15 +117,30 @@ class Check {
     const MeshLimits limits_;
     const TapeAt tape_;
     const TriangleTree tree_;
-    std::vector<bool> off_;
+    std::vector<PlaceOff> off_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> bricksOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                     const DualComplex& complex, const SharpBricks& sharp,
-                                     const MeshLimits& limits) {
+std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
+                                const DualComplex& complex, const SharpBricks& sharp,
+                                const MeshLimits& limits) {
     return Check(mesh, request, complex, sharp, limits).run();
+}
+
+std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, BrickList& bricks) {
+    std::size_t count = 0;
+    for (const PlaceOff& off : places) {
+        const glm::ivec3 unit = request.lattice.unitAt(off.place_world);
+        const int level = std::min(off.level + off.halved, kMostLevels);
+        for (;;) {
+            const BrickList::Leaf leaf = bricks.leafAt(request.lattice, unit);
+            if (leaf.brick == kNoBrick || leaf.level >= level) break;
+            divideBrick(request.tape, request.lattice, request.bound_holds, leaf.brick, bricks);
+            ++count;
+        }
+    }
+    return count;
 }
 
 }  // namespace edgewise::sdf

@@ -8,11 +8,22 @@
 
 namespace edgewise::sdf {
 
-/// Bricks in which more than the limits was found, in order: from the mesh's edges' middles and triangles'
-/// centres to the surface; from where the surface crosses cells' edges, and from where it is nearest to
-/// cells' centres, to the mesh. What the mesh has missed whole is found so too.
-std::vector<std::uint32_t> bricksOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                     const DualComplex& complex, const SharpBricks& sharp,
-                                     const MeshLimits& limits);
+/// A place where mesh and surface are apart, and how many times its cells are to be halved for that to change.
+struct PlaceOff {
+    glm::dvec3 place_world;
+    int level;   ///< of its brick now
+    int halved;  ///< 1 to kMostHalved, by how far off it is
+};
+inline constexpr int kMostHalved = 3;
+
+/// Where more than the limits was found: from the mesh's edges' middles and triangles' centres to the
+/// surface; from where the surface crosses cells' edges, and from where it is nearest to cells' centres, to
+/// the mesh. What the mesh has missed whole is found so too.
+std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
+                                const DualComplex& complex, const SharpBricks& sharp,
+                                const MeshLimits& limits);
+
+/// Divides the bricks of such places. Gives how many; 0: all are as small as they can be.
+std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, BrickList& bricks);
 
 }  // namespace edgewise::sdf

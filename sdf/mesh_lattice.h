@@ -21,7 +21,7 @@ inline constexpr double kBrickMargin = 2.0;
 inline constexpr int kMostResolution = 8192;
 
 /// A brick may be divided so often; a unit is the side of the cells of the last ones.
-inline constexpr int kMostLevels = 6, kUnits = 1 << kMostLevels;
+inline constexpr int kMostLevels = 8, kUnits = 1 << kMostLevels;
 
 /// Cubic cells; a corner's place is the same bits whoever asks.
 struct Lattice {

@@ -20,7 +20,9 @@ constexpr double kLeastShape = 0.02;
 constexpr double kLeastOwnShape = 1e-4;
 /// Cosine between normals of triangles in one plane, on the same side of it.
 constexpr double kSamePlane = 1.0 - 1e-9;
-constexpr int kPasses = 12, kAttempts = 6;
+constexpr int kPasses = 12, kAttempts = 8;
+/// Of a triangle's size: how far around it vertices are kept where it met another, at first.
+constexpr double kAround = 0.5;
 /// Of curved parts.
 constexpr double kLeastNearShape = 0.2;
 constexpr std::size_t kMostWays = 3;
@@ -251,14 +253,15 @@ class Simplifier {
     std::vector<std::uint32_t> neighbours_;
 };
 
-/// Keeps the vertices of `whole` around a triangle of `mesh`.
-void keepAround(const SurfaceMesh& mesh, const Triangle& t, const SurfaceMesh& whole, double step,
+/// Keeps the vertices of `whole` around a triangle of `mesh`, `around` of its size away too.
+void keepAround(const SurfaceMesh& mesh, const Triangle& t, const SurfaceMesh& whole, double around,
                 std::vector<bool>& kept) {
     const auto &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]], &c = mesh.position_world[t[2]];
-    const glm::dvec3 low = glm::min(a, glm::min(b, c)) - step, high = glm::max(a, glm::max(b, c)) + step;
+    const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c)), size = high - low;
+    const double margin = around * std::max({size.x, size.y, size.z});
     for (std::size_t v = 0; v < whole.position_world.size(); ++v) {
         const glm::dvec3& p = whole.position_world[v];
-        kept[v] = kept[v] || (glm::all(glm::lessThan(low, p)) && glm::all(glm::lessThan(p, high)));
+        kept[v] = kept[v] || (glm::all(glm::lessThan(low - margin, p)) && glm::all(glm::lessThan(p, high + margin)));
     }
 }
 
@@ -279,7 +282,7 @@ std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
         for (const auto& [a, b] : pairs) around.push_back(a), around.push_back(b);
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
-        for (const std::uint32_t t : around) keepAround(mesh, mesh.triangles[t], whole, step, kept);
+        for (const std::uint32_t t : around) keepAround(mesh, mesh.triangles[t], whole, kAround * (attempt + 1) * (attempt + 1), kept);
         mesh = whole;
     }
     return 0;

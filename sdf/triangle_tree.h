@@ -52,11 +52,6 @@ class TriangleTree {
     std::span<const glm::dvec3> positions_;
     std::span<const Triangle> triangles_;
     std::vector<std::uint32_t> order_;
-    struct Key {
-        glm::dvec3 centre;  ///< thrice
-        std::uint32_t triangle;
-    };
-    std::vector<Key> keys_;
     std::vector<Node> nodes_;
 };
 
