@@ -60,7 +60,7 @@ class DualContouring {
         diagonal_.assign(complex_.polygons.size(), 0xff);
         for (int round = 0;; ++round) {
             triangulate();
-            if (round == kMostMendings || !mend()) break;
+            if (round == kMostMendings || !(partDiagonals() || mend())) break;
         }
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
@@ -292,6 +292,40 @@ class DualContouring {
     static bool oneLine(const DualPolygon& a, const DualPolygon& b) {
         const int u = (a.axis + 1) % 3, v = (a.axis + 2) % 3;
         return a.axis == b.axis && a.corner[u] == b.corner[u] && a.corner[v] == b.corner[v];
+    }
+
+    /// Polygons along one line of a larger cell's may have two vertices across in common, or a diagonal where
+    /// others have a side: they get hubs of their own. False: there are none.
+    bool partDiagonals() {
+        struct Line {
+            std::uint32_t low, high, polygon;  ///< kNoVertex: a side
+        };
+        std::vector<Line> lines;
+        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p) {
+            const DualPolygon& polygon = complex_.polygons[p];
+            if (!polygon.mixed) continue;
+            const auto add = [&](int i, int j, std::uint32_t of) {
+                const auto [low, high] = std::minmax(polygon.vertex[i % 4], polygon.vertex[j % 4]);
+                lines.push_back({low, high, of});
+            };
+            const bool pair = !divided_[p] && !hasMiddle(p) && polygon.isSide(0) && polygon.isSide(1) &&
+                              polygon.isSide(2) && polygon.isSide(3);
+            if (pair) add(diagonal_[p], diagonal_[p] + 2, p);
+            for (int k = 0; k < 4; ++k)
+                if (polygon.isSide(k)) add(k, k + 1, kNoVertex);
+        }
+        std::sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+            return std::tie(a.low, a.high, a.polygon) < std::tie(b.low, b.high, b.polygon);
+        });
+        bool found = false;
+        for (std::size_t begin = 0, end; begin < lines.size(); begin = end) {
+            for (end = begin; end < lines.size() && lines[end].low == lines[begin].low &&
+                              lines[end].high == lines[begin].high;)
+                ++end;
+            for (std::size_t n = begin; end - begin > 1 && n < end; ++n)
+                if (lines[n].polygon != kNoVertex) divided_[lines[n].polygon] = found = true;
+        }
+        return found;
     }
 
     bool hasMiddle(std::uint32_t p) const {
