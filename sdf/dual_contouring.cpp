@@ -71,12 +71,17 @@ class DualContouring {
     }
 
     const DualComplex& complex() const { return complex_; }
-    /// Those of vertices on sharp edges, and of their neighbours.
+    /// Those of vertices on sharp edges and of their neighbours, and the bricks beside them.
     SharpBricks sharpBricks() const {
         std::vector<bool> sharp(complex_.bricks.bricks.size(), false);
         const auto isSharp = [&](std::uint32_t v) { return complex_.vertices[v].rank > 1; };
         for (const DualPolygon& polygon : complex_.polygons)
             if (std::any_of(polygon.vertex.begin(), polygon.vertex.end(), isSharp))
+                for (const std::uint32_t v : polygon.vertex) sharp[complex_.vertices[v].brick] = true;
+        const std::vector<bool> own = sharp;
+        for (const DualPolygon& polygon : complex_.polygons)
+            if (std::any_of(polygon.vertex.begin(), polygon.vertex.end(),
+                            [&](std::uint32_t v) { return own[complex_.vertices[v].brick]; }))
                 for (const std::uint32_t v : polygon.vertex) sharp[complex_.vertices[v].brick] = true;
         return {lattice_, complex_.bricks, std::move(sharp)};
     }
