@@ -46,12 +46,14 @@ double cpuSeconds() {
 }
 
 /// A surface passes at least about one brick a square of a brick's face: what is refused could not fit.
+double machineBytes() {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
 void requireMemory(const sdf::Lattice& lattice) {
     const glm::dvec3 bricks(lattice.bricks());
     const double needed = kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
                           4.0 * bricks.x * bricks.y * bricks.z;
-    const double machine =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double machine = machineBytes();
     if (needed > machine)
         throw FailureError(
             "memory", fmt::format("a mesh of {}x{}x{} cells may need {:.0f} MiB, this machine has {:.0f}",
@@ -89,7 +91,9 @@ Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
     const double cpu_start = cpuSeconds();
     try {
         const sdf::Tape tape = sdf::lower(field.tree);
-        const sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
+        sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
+        request.most_off = options.most_off;
+        request.most_bricks = static_cast<std::size_t>(0.5 * machineBytes() / kBytesPerBrick);
         result.mesh = options.mesher == Mesher::kDual ? sdf::dualContouring(request, result.counts)
                                                       : sdf::marchingCubes(request, result.counts);
     } catch (const sdf::SceneError& error) {

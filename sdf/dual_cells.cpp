@@ -38,8 +38,7 @@ struct BorderCrossing {
 
 class Builder {
   public:
-    Builder(const MeshRequest& request, BrickList bricks)
-        : request_(request), lattice_(request.lattice) {
+    Builder(const MeshRequest& request, BrickList bricks) : request_(request), lattice_(request.lattice) {
         complex_.bricks = std::move(bricks);
     }
 
@@ -115,7 +114,8 @@ class Builder {
         polygon.corner = brick.unitsOf(place);
         if (!within(place, axis) && ownerOf(polygon.corner, axis, brick.level) != b) return;
         polygonIn(b, place, axis) = static_cast<std::uint32_t>(complex_.polygons.size());
-        polygon.axis = static_cast<std::uint8_t>(axis), polygon.level = static_cast<std::uint8_t>(brick.level);
+        polygon.axis = static_cast<std::uint8_t>(axis),
+        polygon.level = static_cast<std::uint8_t>(brick.level);
         polygon.outward = crossings_.value(place) < 0.0;
         polygon.brick = b;
         polygon.crossing = {crossing->place_world, crossing->normal_world};
@@ -194,9 +194,9 @@ class Builder {
         if (mixed)
             vertex.middle_world = glm::clamp(vertex.middle_world, lattice_.corner(cell.low) + kRim * side,
                                              lattice_.corner(cell.low + cell.side) - kRim * side);
-        const FeaturePoint point =
-            featurePoint(complex_.bricks.bricks[b].tape, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
-                         vertex.middle_world, side);
+        const FeaturePoint point = featurePoint(
+            complex_.bricks.bricks[b].tape, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
+            vertex.middle_world, side);
         vertex.target_world = point.place_world, vertex.rank = static_cast<std::uint8_t>(point.rank);
         vertex.cell = cell, vertex.brick = b;
         vertex.loops = static_cast<std::uint8_t>(std::min(loops, 255)), vertex.mixed = mixed;
@@ -247,10 +247,10 @@ class Builder {
         constexpr int kPlace[2][2] = {{0, 3}, {1, 2}};
         for (int i = 0; i < 2; ++i)
             for (int j = 0; j < 2; ++j) {
-                const bool has_u = i == 0 ? cell.low[u] < polygon.corner[u]
-                                          : cell.low[u] + cell.side > polygon.corner[u];
-                const bool has_v = j == 0 ? cell.low[v] < polygon.corner[v]
-                                          : cell.low[v] + cell.side > polygon.corner[v];
+                const bool has_u =
+                    i == 0 ? cell.low[u] < polygon.corner[u] : cell.low[u] + cell.side > polygon.corner[u];
+                const bool has_v =
+                    j == 0 ? cell.low[v] < polygon.corner[v] : cell.low[v] + cell.side > polygon.corner[v];
                 if (has_u && has_v) polygon.vertex[kPlace[i][j]] = vertex;
             }
         polygon.mixed |= cell.side != kUnits >> polygon.level || complex_.vertices[vertex].mixed;

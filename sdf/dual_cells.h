@@ -34,9 +34,9 @@ struct DualVertex {
     bool mixed = false;      ///< smaller cells are beside its own
 };
 
-/// Around a crossed edge that no smaller one is part of: the four cells counter-clockwise about its axis, from
-/// the one below along the next two axes. A larger cell that has two of the places is there twice: the polygon
-/// is a triangle.
+/// Around a crossed edge that no smaller one is part of: the four cells counter-clockwise about its axis,
+/// from the one below along the next two axes. A larger cell that has two of the places is there twice: the
+/// polygon is a triangle.
 struct DualPolygon {
     glm::ivec3 corner{0};  ///< the edge's lower end, in units
     std::uint8_t axis = 0;

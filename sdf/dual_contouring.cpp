@@ -65,8 +65,7 @@ class DualContouring {
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
         findMaterials(tape, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
-        counts_.added =
-            refineMesh(mesh_, tape, lattice_.step, sharpBricks(), middle);
+        counts_.added = refineMesh(mesh_, tape, lattice_.step, sharpBricks(), middle);
         return std::move(mesh_);
     }
 
@@ -141,7 +140,8 @@ class DualContouring {
         const BrickList::Leaf leaf = complex_.bricks.leafAt(lattice_, at);
         at = at / v.cell.side * v.cell.side;
         const glm::ivec3 off = glm::abs(at - v.cell.low) / v.cell.side;
-        if (v.mixed || kUnits >> leaf.level != v.cell.side || std::max({off.x, off.y, off.z}) > 1) return false;
+        if (v.mixed || kUnits >> leaf.level != v.cell.side || std::max({off.x, off.y, off.z}) > 1)
+            return false;
         if (leaf.brick == kNoBrick) return true;
         const glm::ivec3 place = (at - complex_.bricks.bricks[leaf.brick].first) / v.cell.side;
         return !complex_.passed[leaf.brick][static_cast<std::size_t>(
@@ -456,8 +456,7 @@ class DualContouring {
 
     /// Looks for triangles that meet, and takes more care of their polygons. False: there are none.
     bool mend() {
-        const auto pairs =
-            meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_);
+        const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, doubtful_);
         if (pairs.empty()) return false;
         std::vector<std::uint32_t> polygons;
         for (const auto& [a, b] : pairs) polygons.push_back(owner_[a]), polygons.push_back(owner_[b]);
@@ -534,7 +533,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         DualContouring contouring(request, std::move(bricks), counts);
         mesh = contouring.run(middle);
         std::vector<PlaceOff> off;
-        if (round < kMostLevels)
+        if (round < kMostLevels && contouring.complex().bricks.bricks.size() < request.most_bricks)
             off = placesOff(mesh, request, contouring.complex(), contouring.sharpBricks(), most);
         bricks = contouring.takeBricks();
         if (divideAt(off, request, bricks) == 0) break;

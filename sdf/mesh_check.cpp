@@ -82,7 +82,8 @@ class Check {
     void takeBrick(std::uint32_t b) {
         const Brick& brick = complex_.bricks.bricks[b];
         const double side = lattice_.step / (1 << brick.level);
-        const double reach = 0.5 * std::sqrt(3.0) * side * (request_.bound_holds ? request_.tape.lipschitz : 1e6);
+        const double reach =
+            0.5 * std::sqrt(3.0) * side * (request_.bound_holds ? request_.tape.lipschitz : 1e6);
         for (int begin = 0; begin < kPlaces; begin += kPointLanes) {
             LanePoints centres;
             for (int lane = 0; lane < kPointLanes; ++lane) {
@@ -93,13 +94,14 @@ class Check {
             laneValues(brick.tape, centres, values);
             for (int lane = 0; lane < kPointLanes; ++lane) {
                 const bool asked = sharp_[b] || !complex_.passed[b][static_cast<std::size_t>(begin + lane)];
-                if (asked && std::abs(values[lane]) <= reach) takeCell(b, centreOf(brick, begin + lane, side), side);
+                if (asked && std::abs(values[lane]) <= reach)
+                    takeCell(b, centreOf(brick, begin + lane, side), side);
             }
         }
     }
     glm::dvec3 centreOf(const Brick& brick, int n, double side) const {
-        return lattice_.corner(brick.unitsOf({n % kBrickCells, n / kBrickCells % kBrickCells,
-                                              n / (kBrickCells * kBrickCells)})) +
+        return lattice_.corner(brick.unitsOf(
+                   {n % kBrickCells, n / kBrickCells % kBrickCells, n / (kBrickCells * kBrickCells)})) +
                0.5 * side;
     }
     void takeCell(std::uint32_t b, const glm::dvec3& centre, double side) {

@@ -8,7 +8,8 @@
 
 namespace edgewise::sdf {
 
-/// A place where mesh and surface are apart, and how many times its cells are to be halved for that to change.
+/// A place where mesh and surface are apart, and how many times its cells are to be halved for that to
+/// change.
 struct PlaceOff {
     glm::dvec3 place_world;
     int level;   ///< of its brick now

@@ -93,9 +93,8 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
             }
             glm::ivec3 end = e.corner;
             ++end[e.axis];
-            roots.begin(roots.lane[lane], p[e.axis],
-                        lattice.coordinate(e.axis, brick.unitsOf(end)[e.axis]), value(e.corner),
-                        value(end), lattice.step / (1 << brick.level));
+            roots.begin(roots.lane[lane], p[e.axis], lattice.coordinate(e.axis, brick.unitsOf(end)[e.axis]),
+                        value(e.corner), value(end), lattice.step / (1 << brick.level));
         }
         double values[kPointLanes];
         for (int step = 0; step < kMostRootSteps; ++step) {
@@ -143,11 +142,10 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
 
 bool BrickCrossings::open(const Lattice& lattice, const Brick& brick) const {
     for (int n = 0; n < kCorners; ++n) {
-        const glm::ivec3 at =
-            brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide)));
+        const glm::ivec3 at = brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide)));
         const glm::ivec3 last = lattice.units();
-        const bool end = at.x == 0 || at.y == 0 || at.z == 0 || at.x == last.x || at.y == last.y ||
-                         at.z == last.z;
+        const bool end =
+            at.x == 0 || at.y == 0 || at.z == 0 || at.x == last.x || at.y == last.y || at.z == last.z;
         if (end && values_[n] < 0.0) return true;
     }
     return false;

@@ -10,8 +10,8 @@
 namespace edgewise::sdf {
 namespace {
 
-/// Of eigenvalues: normals of two sides that differ by 12 degrees have 0.011.
-constexpr double kCutoff = 0.01;
+/// Of eigenvalues: normals of two sides that differ by 5 degrees have 0.0019.
+constexpr double kCutoff = 0.002;
 constexpr int kRefinements = 3, kNewtonSteps = 4;
 constexpr double kNearer = 0.1;
 /// Of a cell's side: planes meet exactly; a point is on the surface.

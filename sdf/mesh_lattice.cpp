@@ -158,8 +158,9 @@ class Octree {
     /// Where a brick is written down.
     std::uint32_t& entryOf(const glm::ivec3& first, int level) {
         const glm::ivec3 brick = first / (kBrickCells * kUnits);
-        std::uint32_t* entry = &found_.at[brick.x + static_cast<std::size_t>(bricks_.x) *
-                                                        (brick.y + static_cast<std::size_t>(bricks_.y) * brick.z)];
+        std::uint32_t* entry =
+            &found_.at[brick.x + static_cast<std::size_t>(bricks_.x) *
+                                     (brick.y + static_cast<std::size_t>(bricks_.y) * brick.z)];
         for (int n = 1; n <= level; ++n) entry = &found_.parts[*entry & ~kDividedBit][partOf(first, n)];
         return *entry;
     }

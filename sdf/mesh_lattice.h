@@ -30,9 +30,7 @@ struct Lattice {
     glm::ivec3 cells{0};  ///< whole bricks
 
     /// By a place in units, of which a cell has kUnits.
-    double coordinate(int axis, int unit) const {
-        return low_world[axis] + step * (unit * (1.0 / kUnits));
-    }
+    double coordinate(int axis, int unit) const { return low_world[axis] + step * (unit * (1.0 / kUnits)); }
     glm::dvec3 corner(const glm::ivec3& u) const {
         return {coordinate(0, u.x), coordinate(1, u.y), coordinate(2, u.z)};
     }

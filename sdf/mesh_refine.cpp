@@ -41,7 +41,8 @@ struct Diamond {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp, const MeshLimits& limits)
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp,
+            const MeshLimits& limits)
         : mesh_(mesh),
           tape_(tape),
           step_(step),
@@ -89,7 +90,8 @@ class Refiner {
                 if (stuck_[a] > kMostStuck || stuck_[b] > kMostStuck) continue;
                 if (a > b) std::swap(a, b);
                 const double off = offBetween(at(a), at(b));
-                if (off > limits_.smooth || (off > limits_.sharp && sharp_.at(0.5 * (at(a) + at(b))))) found.push_back({a, b, off});
+                if (off > limits_.smooth || (off > limits_.sharp && sharp_.at(0.5 * (at(a) + at(b)))))
+                    found.push_back({a, b, off});
             }
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
@@ -247,6 +249,10 @@ class Refiner {
             const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
             if (off < best) best = off, place = p, found = true;
         };
+        if (!sharp_.at(middle)) {
+            attempt(onSurface(tape, middle));
+            if (found) return true;
+        }
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
         // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
@@ -327,7 +333,7 @@ class Refiner {
     const SharpBricks& sharp_;
     const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<int> stuck_;      ///< how often vertices could not go where they belong
+    std::vector<int> stuck_;     ///< how often vertices could not go where they belong
     std::vector<bool> touched_;  ///< triangles of this round
     std::vector<Added> added_;
     std::vector<Diamond> turned_;
@@ -336,7 +342,8 @@ class Refiner {
 
 }  // namespace
 
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp, const MeshLimits& limits) {
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp,
+                       const MeshLimits& limits) {
     mesh.material.clear(), mesh.normal_world.clear();
     return Refiner(mesh, tape, step, sharp, limits).run();
 }

@@ -261,7 +261,8 @@ void keepAround(const SurfaceMesh& mesh, const Triangle& t, const SurfaceMesh& w
     const double margin = around * std::max({size.x, size.y, size.z});
     for (std::size_t v = 0; v < whole.position_world.size(); ++v) {
         const glm::dvec3& p = whole.position_world[v];
-        kept[v] = kept[v] || (glm::all(glm::lessThan(low - margin, p)) && glm::all(glm::lessThan(p, high + margin)));
+        kept[v] = kept[v] ||
+                  (glm::all(glm::lessThan(low - margin, p)) && glm::all(glm::lessThan(p, high + margin)));
     }
 }
 
@@ -275,14 +276,14 @@ std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Simplifier simplifier(mesh, step, kept, near);
         const std::size_t gone = simplifier.run();
-        const auto pairs =
-            meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed());
+        const auto pairs = meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed());
         if (pairs.empty()) return gone;
         std::vector<std::uint32_t> around;
         for (const auto& [a, b] : pairs) around.push_back(a), around.push_back(b);
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
-        for (const std::uint32_t t : around) keepAround(mesh, mesh.triangles[t], whole, kAround * (attempt + 1) * (attempt + 1), kept);
+        for (const std::uint32_t t : around)
+            keepAround(mesh, mesh.triangles[t], whole, kAround * (attempt + 1) * (attempt + 1), kept);
         mesh = whole;
     }
     return 0;

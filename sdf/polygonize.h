@@ -17,6 +17,7 @@ struct MeshRequest {
     /// Dual contouring: how far mesh and surface may be apart, in world units, as far as cells can be divided
     /// for it; none: a small part of a cell.
     std::optional<double> most_off = {};
+    std::size_t most_bricks = std::size_t(1) << 20;  ///< cells are divided no further when there are more
 };
 
 struct MeshCounts {

@@ -24,10 +24,13 @@ namespace edgewise::cli {
 namespace {
 
 constexpr int kLinesPerCell = 4;
+/// With --max-error: cells at first, tries, and of the error what a next try asks for, of the one before.
+constexpr int kFirstResolution = 64, kTries = 4;
+constexpr double kLess = 0.7;
 
 struct PolygonizeArguments {
     std::string scene, output, mesher = "dual", command_line;
-    std::optional<std::string> resolution, box, stats;
+    std::optional<std::string> resolution, max_error, box, stats;
     bool cap = false, no_check = false, quiet = false;
 };
 
@@ -49,18 +52,49 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
     if (arguments.resolution)
         options.resolution =
             static_cast<int>(parseInteger("--resolution", *arguments.resolution, 4, sdf::kMostResolution));
+    if (arguments.max_error) {
+        options.most_off = parseNumber("--max-error", *arguments.max_error);
+        if (!(*options.most_off > 0.0))
+            throw InputError("--max-error", fmt::format("'{}' is not above 0", *arguments.max_error));
+        if (!arguments.resolution) options.resolution = kFirstResolution;
+    }
     if (arguments.box) options.box = parseBox(*arguments.box);
     if (arguments.cap && !arguments.box) throw InputError("--cap", "it needs --box X0,Y0,Z0,X1,Y1,Z1");
     return options;
 }
 
-nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check) {
-    MeshQuality quality = qualityOf(made.mesh);
-    if (check) {
-        quality.self_intersections = selfIntersections(made.mesh);
-        quality.distance = distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice,
-                                      scene.field->bound_holds, kLinesPerCell);
+std::optional<MeshDistance> measure(const Polygonized& made, const Scene& scene) {
+    return distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice, scene.field->bound_holds,
+                      kLinesPerCell);
+}
+
+/// Asks for less each time, with smaller cells at last, until what is measured is within the error.
+Polygonized polygonizeWithin(double max_error, const Scene& scene, PolygonizeOptions options,
+                             std::optional<MeshDistance>& distance) {
+    for (int n = 1;; ++n) {
+        Polygonized made = polygonize(scene, options);
+        throwIfInterrupted();
+        distance = measure(made, scene);
+        if (!distance) throw FailureError("--max-error", "this build has no CGAL to measure it with");
+        const double worst = std::max(distance->mesh_to_surface, distance->surface_to_mesh);
+        if (worst <= max_error) return made;
+        if (n == kTries || options.resolution > sdf::kMostResolution / 2)
+            throw FailureError(
+                "--max-error",
+                fmt::format("{} is not met: {} from mesh to surface, {} back (near {},{},{}), with cells of "
+                            "{} divided {} times at most",
+                            max_error, distance->mesh_to_surface, distance->surface_to_mesh,
+                            distance->worst_on_surface.x, distance->worst_on_surface.y,
+                            distance->worst_on_surface.z, made.lattice.step, sdf::kMostLevels));
+        options.most_off = *options.most_off * kLess;
+        if (n > 1 || options.mesher == Mesher::kMarchingCubes) options.resolution *= 2;
     }
+}
+
+nlohmann::json recordOf(const Polygonized& made, const std::optional<MeshDistance>& distance, bool check) {
+    MeshQuality quality = qualityOf(made.mesh);
+    if (check) quality.self_intersections = selfIntersections(made.mesh);
+    quality.distance = distance;
     nlohmann::json record = jsonOf(quality);
     record["seconds"] = made.seconds;
     record["cpu_seconds"] = made.cpu_seconds;
@@ -88,10 +122,13 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
         scene = cappedAt(scene, *options.box);
         options.box.reset();  // of what is left, the cap is the bounds
     }
-    const Polygonized made = polygonize(scene, options);
+    std::optional<MeshDistance> distance;
+    const Polygonized made = options.most_off ? polygonizeWithin(*options.most_off, scene, options, distance)
+                                              : polygonize(scene, options);
     throwIfInterrupted();
+    if (!arguments.no_check && !distance) distance = measure(made, scene);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
-    const nlohmann::json record = recordOf(made, scene, !arguments.no_check);
+    const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
     if (!arguments.quiet) fmt::print("{}\n", record.dump(1));
 }
@@ -112,6 +149,11 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
         ->capture_default_str();
     command->add_option("--resolution", arguments->resolution, "cells along the box's longest side [128]")
         ->type_name("N");
+    command
+        ->add_option("--max-error", arguments->max_error,
+                     "cells are divided until mesh and surface are nowhere found further apart; --resolution "
+                     "is where it begins [64]")
+        ->type_name("E");
     command
         ->add_option("--box", arguments->box,
                      "where the surface is looked for [the scene's bounds and a little more]")
