@@ -30,6 +30,8 @@ constexpr double kSharpMiddle = 0.01, kSmoothMiddle = 0.04;
 constexpr double kSharpOff = 0.016, kSmoothOff = 0.085;
 /// Of a cell's side: vertices are left out where the mesh stays as near as that.
 constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
+/// Of dividing, where no distance is asked for, and until there are half as many bricks more.
+constexpr int kRounds = 3;
 /// The same three of a distance that is asked for.
 constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6;
 constexpr int kSettlings = 3;
@@ -527,16 +529,19 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         thin = {kThinPart * most_off, kThinPart * most_off};
     }
     BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
+    const int rounds = request.most_off ? kMostLevels : kRounds;
+    const std::size_t most_bricks =
+        request.most_off ? request.most_bricks : std::min(request.most_bricks, 3 * bricks.bricks.size() / 2);
     SurfaceMesh mesh;
     for (int round = 0;; ++round) {
         counts = {};
         DualContouring contouring(request, std::move(bricks), counts);
         mesh = contouring.run(middle);
         std::vector<PlaceOff> off;
-        if (round < kMostLevels && contouring.complex().bricks.bricks.size() < request.most_bricks)
+        if (round < rounds && contouring.complex().bricks.bricks.size() < most_bricks)
             off = placesOff(mesh, request, contouring.complex(), contouring.sharpBricks(), most);
         bricks = contouring.takeBricks();
-        if (divideAt(off, request, bricks) == 0) break;
+        if (divideAt(off, request, most_bricks, bricks) == 0) break;
     }
     const TapeAt tape(request.tape, request.lattice, bricks);
     findMaterials(tape, mesh);

@@ -130,14 +130,15 @@ std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& requ
     return Check(mesh, request, complex, sharp, limits).run();
 }
 
-std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, BrickList& bricks) {
+std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, std::size_t most_bricks,
+                     BrickList& bricks) {
     std::size_t count = 0;
     for (const PlaceOff& off : places) {
         const glm::ivec3 unit = request.lattice.unitAt(off.place_world);
         const int level = std::min(off.level + off.halved, kMostLevels);
         for (;;) {
             const BrickList::Leaf leaf = bricks.leafAt(request.lattice, unit);
-            if (leaf.brick == kNoBrick || leaf.level >= level) break;
+            if (leaf.brick == kNoBrick || leaf.level >= level || bricks.bricks.size() >= most_bricks) break;
             divideBrick(request.tape, request.lattice, request.bound_holds, leaf.brick, bricks);
             ++count;
         }

@@ -24,7 +24,9 @@ std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& requ
                                 const DualComplex& complex, const SharpBricks& sharp,
                                 const MeshLimits& limits);
 
-/// Divides the bricks of such places. Gives how many; 0: all are as small as they can be.
-std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, BrickList& bricks);
+/// Divides the bricks of such places, until there are so many. Gives how many; 0: all are as small as they
+/// can be.
+std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, std::size_t most_bricks,
+                     BrickList& bricks);
 
 }  // namespace edgewise::sdf
