@@ -20,6 +20,9 @@ constexpr double kFarthest = 1.0;
 /// Of a cell's side: triangles that turned edges make are no narrower.
 constexpr double kLeastHeight = 1e-3;
 
+constexpr int kMostShifts = 2;
+constexpr std::size_t kShiftPlanes = 16;
+
 struct Candidate {
     std::uint32_t a, b;
     double off;
@@ -155,6 +158,8 @@ class Refiner {
     bool shift(std::uint32_t v) {
         for (const std::uint32_t t : around_[v])
             if (touched_[t]) return false;
+        tried_.resize(mesh_.position_world.size(), 0);
+        if (tried_[v]++ >= kMostShifts) return false;
         const glm::dvec3 from = at(v);
         const TapeView tape = tape_(from);
         double best = kGain * offWith(v, from), reach = 0.0;
@@ -164,7 +169,7 @@ class Refiner {
             const glm::dvec3 side = at(othersOf(mesh_.triangles[t], v)[0]) - from;
             reach = std::max(reach, glm::length(side));
             for (const double part : {0.3, 0.7})
-                if (planes.size() < kMostPlanes) addPlane(tape, from + part * side, planes);
+                if (planes.size() < kShiftPlanes) addPlane(tape, from + part * side, planes);
         }
         const auto attempt = [&](const glm::dvec3& p) {
             if (!(glm::distance(p, from) <= reach)) return;
@@ -333,6 +338,7 @@ class Refiner {
     const SharpBricks& sharp_;
     const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
+    std::vector<int> tried_;     ///< how often vertices were asked to shift
     std::vector<int> stuck_;     ///< how often vertices could not go where they belong
     std::vector<bool> touched_;  ///< triangles of this round
     std::vector<Added> added_;
