@@ -62,13 +62,17 @@ class Refiner {
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
         std::size_t all = 0;
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
+            const SurfaceMesh before = mesh_;
             touched_.assign(mesh_.triangles.size(), false);
             added_.clear(), turned_.clear(), shifted_.clear();
             std::vector<std::uint32_t> later;
             for (const Candidate& c : candidatesOf(active)) improve(c, later);
             all += added_.size();
             if (added_.empty() && turned_.empty() && shifted_.empty()) break;
-            retreat();
+            if (!retreat()) {
+                mesh_ = before;
+                break;
+            }
             active = std::move(later);
             for (std::uint32_t t = 0; t < touched_.size(); ++t)
                 if (touched_[t]) active.push_back(t);
@@ -282,10 +286,11 @@ class Refiner {
     }
 
     /// New vertices whose triangles meet others go back to where they change nothing, edges turn back.
-    void retreat() {
+    /// False: some still do.
+    bool retreat() {
         for (int n = 0; n < kRetreats; ++n) {
             const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_);
-            if (pairs.empty()) return;
+            if (pairs.empty()) return true;
             shiftBack(pairs);
             turnBack(pairs);
             std::vector<std::uint32_t> back;
@@ -303,6 +308,7 @@ class Refiner {
                 place = ++added.retreats == 1 ? 0.5 * (place + added.middle) : added.middle;
             }
         }
+        return meetingPairs(mesh_.position_world, mesh_.triangles, touched_).empty();
     }
 
     void shiftBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
