@@ -30,8 +30,10 @@ constexpr double kSharpMiddle = 0.01, kSmoothMiddle = 0.04;
 constexpr double kSharpOff = 0.016, kSmoothOff = 0.085;
 /// Of a cell's side: vertices are left out where the mesh stays as near as that.
 constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
-/// Of dividing, where no distance is asked for, and until there are half as many bricks more.
-constexpr int kRounds = 3;
+/// Of dividing, where no distance is asked for, and until there are half as many bricks more; not at all
+/// where the mesh is off in more than that part of them: smaller cells are the way then, a larger resolution.
+constexpr int kRounds = 2;
+constexpr double kMostOffBricks = 0.2;
 /// The same three of a distance that is asked for.
 constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6;
 constexpr int kSettlings = 3;
@@ -65,26 +67,16 @@ class DualContouring {
             if (round == kMostMendings || !(partDiagonals() || mend())) break;
         }
         const TapeAt tape(request_.tape, lattice_, complex_.bricks);
-        findMaterials(tape, mesh_);
-        counts_.collapsed = leaveOutFlat(mesh_, lattice_.step);
-        counts_.added = refineMesh(mesh_, tape, lattice_.step, sharpBricks(), middle);
+        counts_.added = refineMesh(mesh_, tape, lattice_.step, sharpCells(), middle);
         return std::move(mesh_);
     }
 
     const DualComplex& complex() const { return complex_; }
-    /// Those of vertices on sharp edges and of their neighbours, and the bricks beside them.
-    SharpBricks sharpBricks() const {
-        std::vector<bool> sharp(complex_.bricks.bricks.size(), false);
-        const auto isSharp = [&](std::uint32_t v) { return complex_.vertices[v].rank > 1; };
-        for (const DualPolygon& polygon : complex_.polygons)
-            if (std::any_of(polygon.vertex.begin(), polygon.vertex.end(), isSharp))
-                for (const std::uint32_t v : polygon.vertex) sharp[complex_.vertices[v].brick] = true;
-        const std::vector<bool> own = sharp;
-        for (const DualPolygon& polygon : complex_.polygons)
-            if (std::any_of(polygon.vertex.begin(), polygon.vertex.end(),
-                            [&](std::uint32_t v) { return own[complex_.vertices[v].brick]; }))
-                for (const std::uint32_t v : polygon.vertex) sharp[complex_.vertices[v].brick] = true;
-        return {lattice_, complex_.bricks, std::move(sharp)};
+    SharpCells sharpCells() const {
+        SharpCells sharp(lattice_, complex_.bricks);
+        for (const DualVertex& v : complex_.vertices)
+            if (v.rank > 1) sharp.addAround(v.cell.low, v.cell.side);
+        return sharp;
     }
     BrickList takeBricks() { return std::move(complex_.bricks); }
 
@@ -198,11 +190,19 @@ class DualContouring {
     /// cells around.
     void settle() {
         findPolygons();
+        std::vector<bool> asked(complex_.vertices.size(), true);
         for (int pass = 0; pass < kSettlings; ++pass) {
-            std::size_t moved = 0;
-            for (std::uint32_t v = 0; v < complex_.vertices.size(); ++v) moved += bySharp(v) && settle(v);
-            if (moved == 0) break;
+            std::vector<bool> next(asked.size(), false);
+            bool any = false;
+            for (std::uint32_t v = 0; v < complex_.vertices.size(); ++v)
+                if (asked[v] && bySharp(v) && settle(v)) askAround(v, next), any = true;
+            if (!any) break;
+            asked = std::move(next);
         }
+    }
+    void askAround(std::uint32_t v, std::vector<bool>& asked) const {
+        for (const std::uint32_t p : polygonsOf(v))
+            for (const std::uint32_t w : complex_.polygons[p].vertex) asked[w] = true;
     }
     bool bySharp(std::uint32_t v) const {
         if (complex_.vertices[v].rank > 1) return true;
@@ -516,6 +516,14 @@ class DualContouring {
     std::vector<std::uint32_t> owner_;            ///< a triangle's polygon
 };
 
+std::size_t bricksOf(const std::vector<PlaceOff>& places, const Lattice& lattice, const BrickList& bricks) {
+    std::vector<std::uint32_t> found;
+    for (const PlaceOff& off : places)
+        found.push_back(bricks.leafAt(lattice, lattice.unitAt(off.place_world)).brick);
+    std::sort(found.begin(), found.end());
+    return static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin());
+}
+
 }  // namespace
 
 SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
@@ -539,12 +547,16 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         mesh = contouring.run(middle);
         std::vector<PlaceOff> off;
         if (round < rounds && contouring.complex().bricks.bricks.size() < most_bricks)
-            off = placesOff(mesh, request, contouring.complex(), contouring.sharpBricks(), most);
+            off = placesOff(mesh, request, contouring.complex(), contouring.sharpCells(), most);
         bricks = contouring.takeBricks();
+        const std::size_t all = bricks.bricks.size(), off_bricks = bricksOf(off, request.lattice, bricks);
+        if (!request.most_off && static_cast<double>(off_bricks) > kMostOffBricks * static_cast<double>(all))
+            break;
         if (divideAt(off, request, most_bricks, bricks) == 0) break;
     }
     const TapeAt tape(request.tape, request.lattice, bricks);
     findMaterials(tape, mesh);
+    counts.collapsed = leaveOutFlat(mesh, step);
     counts.collapsed += thinOut(mesh, tape, step, thin);
     findMaterials(tape, mesh);
     if (request.attributes) findNormals(tape, mesh);

@@ -20,7 +20,7 @@ constexpr double kLeastSlope = 0.1;
 class Check {
   public:
     Check(const SurfaceMesh& mesh, const MeshRequest& request, const DualComplex& complex,
-          const SharpBricks& sharp, const MeshLimits& limits)
+          const SharpCells& sharp, const MeshLimits& limits)
         : mesh_(mesh),
           request_(request),
           lattice_(request.lattice),
@@ -39,7 +39,7 @@ class Check {
     }
 
   private:
-    double limitOf(std::uint32_t b) const { return sharp_[b] ? limits_.sharp : limits_.smooth; }
+    double limitAt(const glm::dvec3& p) const { return sharp_.at(p) ? limits_.sharp : limits_.smooth; }
 
     /// What a cell's size does to the mesh is about as large as it.
     void add(const glm::dvec3& p, std::uint32_t b, double times_limit) {
@@ -58,7 +58,7 @@ class Check {
     }
     void takeMeshPlace(const glm::dvec3& p, const Triangle& t) {
         const std::uint32_t b = brickAt(p);
-        const double limit = b == kNoBrick ? limits_.sharp : limitOf(b), off = distanceAt(tape_(p), p, limit);
+        const double limit = limitAt(p), off = distanceAt(tape_(p), p, limit);
         if (off <= limit) return;
         if (b != kNoBrick) return add(p, b, off / limit);
         for (const std::uint32_t v : t)
@@ -74,7 +74,7 @@ class Check {
     }
 
     void takePlace(std::uint32_t b, const glm::dvec3& p) {
-        const double limit = limitOf(b);
+        const double limit = limitAt(p);
         if (tree_.near(p, limit)) return;
         add(p, b, tree_.near(p, 2.0 * limit) ? 1.0 : tree_.near(p, 4.0 * limit) ? 3.0 : 5.0);
     }
@@ -93,7 +93,8 @@ class Check {
             double values[kPointLanes];
             laneValues(brick.tape, centres, values);
             for (int lane = 0; lane < kPointLanes; ++lane) {
-                const bool asked = sharp_[b] || !complex_.passed[b][static_cast<std::size_t>(begin + lane)];
+                const auto place = static_cast<std::size_t>(begin + lane);
+                const bool asked = sharp_.cell(b, place) || !complex_.passed[b][place];
                 if (asked && std::abs(values[lane]) <= reach)
                     takeCell(b, centreOf(brick, begin + lane, side), side);
             }
@@ -115,7 +116,7 @@ class Check {
     const MeshRequest& request_;
     const Lattice& lattice_;
     const DualComplex& complex_;
-    const SharpBricks& sharp_;
+    const SharpCells& sharp_;
     const MeshLimits limits_;
     const TapeAt tape_;
     const TriangleTree tree_;
@@ -125,7 +126,7 @@ class Check {
 }  // namespace
 
 std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                const DualComplex& complex, const SharpBricks& sharp,
+                                const DualComplex& complex, const SharpCells& sharp,
                                 const MeshLimits& limits) {
     return Check(mesh, request, complex, sharp, limits).run();
 }

@@ -20,6 +20,14 @@ constexpr double kFarthest = 1.0;
 /// Of a cell's side: triangles that turned edges make are no narrower.
 constexpr double kLeastHeight = 1e-3;
 
+/// Of the way from an edge's middle to its ends: where normals are compared.
+constexpr double kByEnd = 0.8, kEnd = 0.97;
+/// Between sharp and round: of its share by length, a part turns no more than that and a little, which is
+/// about the angle that mesh_feature tells apart.
+constexpr double kEven = 1.5, kSlight = 0.03;
+/// Of a cell's side: a vertex counts as on the surface.
+constexpr double kOff = 1e-6;
+
 constexpr int kMostShifts = 2;
 constexpr std::size_t kShiftPlanes = 16;
 
@@ -44,7 +52,7 @@ struct Diamond {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp,
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
             const MeshLimits& limits)
         : mesh_(mesh),
           tape_(tape),
@@ -137,8 +145,47 @@ class Refiner {
         }
         if (shouldTurn(c, d))
             turn(d), turned_.push_back(d);
-        else if (!divide(c, d) && !shift(c.a))
-            shift(c.b);
+        else if (!isEven(d))
+            divide(c, d, false) || shift(c.a) || shift(c.b);
+        else
+            (c.off > limits_.smooth && divide(c, d, true)) || shiftOff(c.a) || shiftOff(c.b);
+    }
+
+    /// No sharp edge is near: along the edge, and between the tips, the normal turns evenly.
+    bool isEven(const Diamond& d) const {
+        const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
+        const TapeView tape = tape_(middle);
+        const glm::dvec3 centre = normalNear(tape, middle);
+        const auto normal = [&](std::uint32_t v, double part) {
+            return normalNear(tape, middle + part * (at(v) - middle));
+        };
+        const std::array along{normal(d.a, kEnd), normal(d.a, kByEnd), centre, normal(d.b, kByEnd),
+                               normal(d.b, kEnd)};
+        constexpr std::array kAlong{kEnd - kByEnd, kByEnd, kByEnd, kEnd - kByEnd};
+        if (!turnsEvenly(along, kAlong)) return false;
+        const std::array across{normal(d.tips[0], kByEnd), centre, normal(d.tips[1], kByEnd)};
+        return turnsEvenly(across, std::array{kByEnd, kByEnd});
+    }
+    static glm::dvec3 normalNear(const TapeView& tape, const glm::dvec3& p) {
+        const glm::dvec3 gradient = gradientAt(tape, p).gradient;
+        const double length = glm::length(gradient);
+        return length > 0.0 ? gradient / length : glm::dvec3(0.0);
+    }
+    /// `ways`: from each to the next.
+    template <std::size_t N>
+    static bool turnsEvenly(const std::array<glm::dvec3, N + 1>& normals, const std::array<double, N>& ways) {
+        double turned = 0.0, way = 0.0;
+        std::array<double, N> turns;
+        for (std::size_t n = 0; n < N; ++n) {
+            turns[n] = glm::distance(normals[n], normals[n + 1]);
+            turned += turns[n], way += ways[n];
+        }
+        for (std::size_t n = 0; n < N; ++n)
+            if (!(turns[n] <= kEven * turned * ways[n] / way + kSlight)) return false;
+        return true;
+    }
+    bool shiftOff(std::uint32_t v) {
+        return std::abs(valueAt(tape_(at(v)), at(v))) > kOff * step_ && shift(v);
     }
 
     /// How far the triangles around a vertex would be off the surface with it there.
@@ -223,9 +270,10 @@ class Refiner {
         touched_[s] = touched_[t] = true;
     }
 
-    bool divide(const Candidate& c, const Diamond& d) {
+    /// `even`: no sharp edge is near.
+    bool divide(const Candidate& c, const Diamond& d, bool even) {
         glm::dvec3 place;
-        if (!placeFor(c, d.tips, place)) return false;
+        if (!placeFor(c, d.tips, even, place)) return false;
         const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
         mesh_.position_world.push_back(place);
         around_.emplace_back(), stuck_.push_back(0);
@@ -248,7 +296,8 @@ class Refiner {
         touched_[t] = true, touched_.push_back(true);
     }
 
-    bool placeFor(const Candidate& c, const std::array<std::uint32_t, 2>& tips, glm::dvec3& place) const {
+    bool placeFor(const Candidate& c, const std::array<std::uint32_t, 2>& tips, bool even,
+                  glm::dvec3& place) const {
         const glm::dvec3 &a = at(c.a), &b = at(c.b), middle = 0.5 * (a + b);
         const TapeView tape = tape_(middle);
         double best = kGain * c.off;
@@ -258,9 +307,9 @@ class Refiner {
             const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
             if (off < best) best = off, place = p, found = true;
         };
-        if (!sharp_.at(middle)) {
+        if (even || !sharp_.at(middle)) {
             attempt(onSurface(tape, middle));
-            if (found) return true;
+            if (found || even) return found;
         }
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
@@ -341,7 +390,7 @@ class Refiner {
     SurfaceMesh& mesh_;
     const TapeAt& tape_;
     const double step_;
-    const SharpBricks& sharp_;
+    const SharpCells& sharp_;
     const MeshLimits limits_;
     std::vector<std::vector<std::uint32_t>> around_;
     std::vector<int> tried_;     ///< how often vertices were asked to shift
@@ -354,7 +403,7 @@ class Refiner {
 
 }  // namespace
 
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp,
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits) {
     mesh.material.clear(), mesh.normal_world.clear();
     return Refiner(mesh, tape, step, sharp, limits).run();

@@ -11,7 +11,7 @@ namespace edgewise::sdf {
 /// sharp edge where it has one there. Where triangles would come to meet it stays at the edge's middle: the
 /// mesh goes through itself no more than before. Gives how many were added. Of materials and normals none are
 /// kept.
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpBricks& sharp,
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits);
 
 }  // namespace edgewise::sdf

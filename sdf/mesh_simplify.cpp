@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <numeric>
+#include <optional>
+#include <tuple>
 
 #include "sdf/evaluate.h"
 #include "sdf/mesh_embedding.h"
@@ -253,26 +256,42 @@ class Simplifier {
     std::vector<std::uint32_t> neighbours_;
 };
 
-/// Keeps the vertices of `whole` around a triangle of `mesh`, `around` of its size away too.
-void keepAround(const SurfaceMesh& mesh, const Triangle& t, const SurfaceMesh& whole, double around,
+/// Vertices in the order of their first coordinates.
+class VertexOrder {
+  public:
+    explicit VertexOrder(const std::vector<glm::dvec3>& x) : x_(x), order_(x.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tie(x_[a].x, a) < std::tie(x_[b].x, b);
+        });
+    }
+    /// Those within a box.
+    template <class F>
+    void forWithin(const glm::dvec3& low, const glm::dvec3& high, const F& f) const {
+        auto at = std::partition_point(order_.begin(), order_.end(),
+                                       [&](std::uint32_t v) { return x_[v].x <= low.x; });
+        for (; at != order_.end() && x_[*at].x < high.x; ++at)
+            if (glm::all(glm::lessThan(low, x_[*at])) && glm::all(glm::lessThan(x_[*at], high))) f(*at);
+    }
+
+  private:
+    const std::vector<glm::dvec3>& x_;
+    std::vector<std::uint32_t> order_;
+};
+
+/// Keeps the whole mesh's vertices around a triangle of `mesh`, `around` of its size away too.
+void keepAround(const SurfaceMesh& mesh, const Triangle& t, const VertexOrder& whole, double around,
                 std::vector<bool>& kept) {
     const auto &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]], &c = mesh.position_world[t[2]];
     const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c)), size = high - low;
     const double margin = around * std::max({size.x, size.y, size.z});
-    for (std::size_t v = 0; v < whole.position_world.size(); ++v) {
-        const glm::dvec3& p = whole.position_world[v];
-        kept[v] = kept[v] ||
-                  (glm::all(glm::lessThan(low - margin, p)) && glm::all(glm::lessThan(p, high + margin)));
-    }
+    whole.forWithin(low - margin, high + margin, [&](std::uint32_t v) { kept[v] = true; });
 }
-
-}  // namespace
-
-namespace {
 
 std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
     const SurfaceMesh whole = mesh;
     std::vector<bool> kept(whole.position_world.size(), false);
+    std::optional<VertexOrder> order;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         Simplifier simplifier(mesh, step, kept, near);
         const std::size_t gone = simplifier.run();
@@ -282,8 +301,9 @@ std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
         for (const auto& [a, b] : pairs) around.push_back(a), around.push_back(b);
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
+        if (!order) order.emplace(whole.position_world);
         for (const std::uint32_t t : around)
-            keepAround(mesh, mesh.triangles[t], whole, kAround * (attempt + 1) * (attempt + 1), kept);
+            keepAround(mesh, mesh.triangles[t], *order, kAround * (attempt + 1) * (attempt + 1), kept);
         mesh = whole;
     }
     return 0;
