@@ -32,6 +32,7 @@ constexpr double kSharpOff = 0.016, kSmoothOff = 0.085;
 constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
 /// Of dividing, where no distance is asked for, and until there are half as many bricks more; not at all
 /// where the mesh is off in more than that part of them: smaller cells are the way then, a larger resolution.
+/// Nor a second time for a few of them.
 constexpr int kRounds = 2;
 constexpr double kMostOffBricks = 0.2;
 /// The same three of a distance that is asked for.
@@ -550,8 +551,9 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
             off = placesOff(mesh, request, contouring.complex(), contouring.sharpCells(), most);
         bricks = contouring.takeBricks();
         const std::size_t all = bricks.bricks.size(), off_bricks = bricksOf(off, request.lattice, bricks);
-        if (!request.most_off && static_cast<double>(off_bricks) > kMostOffBricks * static_cast<double>(all))
-            break;
+        const bool too_many = static_cast<double>(off_bricks) > kMostOffBricks * static_cast<double>(all) ||
+                              (round > 0 && all + 8 * off_bricks > most_bricks);
+        if (!request.most_off && too_many) break;
         if (divideAt(off, request, most_bricks, bricks) == 0) break;
     }
     const TapeAt tape(request.tape, request.lattice, bricks);
