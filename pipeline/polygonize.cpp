@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "pipeline/cgal_mesher.h"
 #include "pipeline/error.h"
 #include "sdf/field_scene.h"
 #include "sdf/scene_error.h"
@@ -66,7 +67,8 @@ void requireMemory(const sdf::Lattice& lattice) {
 Mesher parseMesher(const std::string& name) {
     if (name == "dual") return Mesher::kDual;
     if (name == "marching-cubes") return Mesher::kMarchingCubes;
-    throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes", name));
+    if (name == "cgal") return Mesher::kCgal;
+    throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes, cgal", name));
 }
 
 Scene cappedAt(const Scene& scene, const WorldBox& box) {
@@ -94,8 +96,16 @@ Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
         sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
         request.most_off = options.most_off;
         request.most_bricks = static_cast<std::size_t>(0.5 * machineBytes() / kBytesPerBrick);
-        result.mesh = options.mesher == Mesher::kDual ? sdf::dualContouring(request, result.counts)
-                                                      : sdf::marchingCubes(request, result.counts);
+        switch (options.mesher) {
+            case Mesher::kDual:
+                result.mesh = sdf::dualContouring(request, result.counts);
+                break;
+            case Mesher::kMarchingCubes:
+                result.mesh = sdf::marchingCubes(request, result.counts);
+                break;
+            case Mesher::kCgal:
+                result.mesh = cgalMesh(request, scene.source, result.counts);
+        }
     } catch (const sdf::SceneError& error) {
         throw InputError(scene.source, error.what());
     }

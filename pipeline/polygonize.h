@@ -10,7 +10,7 @@
 
 namespace edgewise {
 
-enum class Mesher { kMarchingCubes, kDual };
+enum class Mesher { kMarchingCubes, kDual, kCgal };
 /// Throws InputError naming those that there are.
 Mesher parseMesher(const std::string& name);
 

@@ -87,7 +87,7 @@ Polygonized polygonizeWithin(double max_error, const Scene& scene, PolygonizeOpt
                             distance->worst_on_surface.x, distance->worst_on_surface.y,
                             distance->worst_on_surface.z, made.lattice.step, sdf::kMostLevels));
         options.most_off = *options.most_off * kLess;
-        if (n > 1 || options.mesher == Mesher::kMarchingCubes) options.resolution *= 2;
+        if (n > 1 || options.mesher != Mesher::kDual) options.resolution *= 2;
     }
 }
 
@@ -144,7 +144,9 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
     command->add_option("-o,--output", arguments->output, "positions in float32")
         ->type_name("MESH.glb")
         ->required();
-    command->add_option("--mesher", arguments->mesher, "dual: sharp edges kept; marching-cubes")
+    command
+        ->add_option("--mesher", arguments->mesher,
+                     "dual: sharp edges kept; marching-cubes; cgal: smooth surfaces alone")
         ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--resolution", arguments->resolution, "cells along the box's longest side [128]")

@@ -302,6 +302,30 @@ TEST(Polygonize, RoundPartsHaveNoMoreTrianglesThanTheyNeed) {
     EXPECT_LE(distance.surface_to_mesh, 2.0 * fine.lattice.step / 64.0);
 }
 
+TEST(Polygonize, CgalMeshesSmoothSurfacesAndRefusesSharpOnes) {
+    const sdf::Tree ball = shape(Kind::kSphere, {1.0});
+    PolygonizeOptions options;
+    options.mesher = Mesher::kCgal;
+    options.resolution = 20;
+    const std::string sharp = problemOf(ballMinusBox(), options);
+    if (sharp.find("no CGAL") != std::string::npos) GTEST_SKIP() << sharp;
+    EXPECT_NE(sharp.find("sharp edge"), std::string::npos) << sharp;
+    const Polygonized made = polygonize(sceneOf(ball), options);
+    expectClean(made, "cgal's ball");
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_EQ(quality.euler, 2);
+    EXPECT_GT(quality.smallest_angle_degrees, 29.9);
+    // Asked of it: circles' centres are within a tenth of a cell of the surface.
+    const MeshDistance distance = farthest(made, ball);
+    EXPECT_LE(distance.mesh_to_surface, 0.1 * made.lattice.step);
+    // Parts that do not touch have seeds of their own.
+    sdf::Tree two;
+    const auto small = two.add(Kind::kSphere, {0.4}, {}, 0), large = two.add(Kind::kSphere, {0.7}, {}, 0);
+    const auto moved = two.add(Kind::kTranslate, {1.5, 0.2, 0.0}, {small});
+    two.root = two.add(Kind::kUnion, {}, {large, moved});
+    EXPECT_EQ(qualityOf(polygonize(sceneOf(two), options).mesh).components, 2u);
+}
+
 TEST(TriangleTree, FindsWhatIsNear) {
     std::mt19937_64 random(31);
     std::uniform_real_distribution<double> at(-1.0, 1.0), size(-0.1, 0.1);
