@@ -8,9 +8,19 @@
 
 namespace edgewise::figures {
 
+/// A number that a paper states, and ours beside it.
+struct FigureClaim {
+    std::string place;        ///< in the paper: "section 4.3"
+    std::string claim;        ///< what is told
+    std::string paper, ours;  ///< numbers, or words where the paper has none; empty: none
+    std::string unit;
+    std::string why;  ///< they differ
+};
+
 struct FigureInput {
     bool quick = false;  ///< a small version in seconds
     Progress& progress;
+    std::vector<FigureClaim>& claims;  ///< the figure adds its own
 };
 
 struct FigureFile {
@@ -34,5 +44,17 @@ std::vector<FigureFile> makeFilterStudy(const FigureInput& input);
 std::vector<FigureFile> makePerformance(const FigureInput& input);
 std::vector<FigureFile> makeSphereTracing(const FigureInput& input);
 std::vector<FigureFile> makeConeTracing(const FigureInput& input);
+std::vector<FigureFile> makeNsaaPixel(const FigureInput& input);
+std::vector<FigureFile> makeNsaaStages(const FigureInput& input);
+std::vector<FigureFile> makeNsaaGather(const FigureInput& input);
+std::vector<FigureFile> makeNsaaZonePlate(const FigureInput& input);
+std::vector<FigureFile> makeNsaaLogGrid(const FigureInput& input);
+std::vector<FigureFile> makeNsaaFilters(const FigureInput& input);
+std::vector<FigureFile> makeNsaaTori(const FigureInput& input);
+std::vector<FigureFile> makeNsaaTimes(const FigureInput& input);
+std::vector<FigureFile> makeSphereDrawn(const FigureInput& input);
+std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
+std::vector<FigureFile> makeLottes(const FigureInput& input);
+std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
 
 }  // namespace edgewise::figures

@@ -11,8 +11,9 @@ std::string plotsHtml(std::span<const FigurePlot> plots) {
     std::string out = "<div class='plots'>\n";
     for (const FigurePlot& plot : plots) {
         std::string svg = plot.svg;  // one id a page
-        for (std::size_t at = 0; (at = svg.find("inside", at)) != std::string::npos; at += plot.name.size())
-            svg.replace(at, 6, plot.name);
+        for (const char* place : {"'inside", "#inside"})
+            for (std::size_t at = 0; (at = svg.find(place, at)) != std::string::npos; at += plot.name.size())
+                svg.replace(at + 1, 6, plot.name);
         out += fmt::format("<figure class='card'>{}<figcaption>{}</figcaption></figure>\n", svg,
                            escapedHtml(plot.caption));
     }

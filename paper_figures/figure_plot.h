@@ -17,7 +17,7 @@ struct FigurePlot {
 std::string plotsHtml(std::span<const FigurePlot> plots);
 
 inline constexpr const char* kPlotStyle = R"css(
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(560px,1fr));gap:14px}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(560px,1fr));gap:14px;margin-bottom:14px}
 figure{margin:0}figcaption{font-size:13px;color:#444;margin-top:4px}
 .plots .card svg{max-width:none}
 )css";

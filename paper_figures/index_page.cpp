@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "paper_figures/claims_table.h"
+#include "paper_figures/page_parts.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
@@ -9,31 +11,54 @@
 namespace edgewise::figures {
 namespace {
 
-std::string rowOf(const MadeFigure& made, bool quick) {
-    const Figure& figure = *made.figure;
-    const std::string name = escapedHtml(figure.name);
-    const std::string link =
-        made.page.empty() ? fmt::format("{}<br><span class='bad'>{}</span>", name, escapedHtml(made.why))
-                          : fmt::format("<a href='{}'>{}</a>", escapedHtml(made.page), name);
+std::string nameCell(const MadeFigure& made) {
+    const std::string name = escapedHtml(made.figure->name);
+    if (made.page.empty())
+        return fmt::format("{}<br><span class='bad'>{}</span>", name, escapedHtml(made.why));
+    return fmt::format("<a href='{}'>{}</a>{}", escapedHtml(made.page), name,
+                       made.of_this_program ? "" : "<br><span class='bad'>of another build</span>");
+}
+
+std::string rowOf(const MadeFigure& made) {
     return fmt::format(
-        "<tr><td>{}</td><td>{}</td><td style='text-align:left'>{}</td><td "
-        "style='text-align:left'><code>edgewise figure {}{} -o DIR</code></td></tr>\n",
-        link, escapedHtml(figure.source), escapedHtml(figure.what), name, quick ? " --quick" : "");
+               "<tr><td>{}</td><td>{}</td><td style='text-align:left;white-space:normal'>{}</td><td "
+               "style='text-align:left'><code>edgewise figure {}{} -o DIR</code></td>",
+               nameCell(made), escapedHtml(made.figure->source), escapedHtml(made.figure->what),
+               escapedHtml(made.figure->name), made.quick ? " --quick" : "") +
+           (made.page.empty() ? "<td data-value=''></td>" : number(made.seconds, "{:.1f}")) + "</tr>\n";
+}
+
+std::vector<ClaimsOf> claimsOfAll(const std::vector<MadeFigure>& made) {
+    std::vector<ClaimsOf> all;
+    for (const MadeFigure& one : made) all.push_back({one.figure, one.page, one.claims});
+    return all;
 }
 
 }  // namespace
 
-std::string indexHtml(const std::vector<MadeFigure>& made, bool quick) {
+std::string indexHtml(const std::vector<MadeFigure>& made) {
     std::string rows;
-    for (const MadeFigure& one : made) rows += rowOf(one, quick);
+    double seconds = 0.0;
+    for (const MadeFigure& one : made) rows += rowOf(one), seconds += one.seconds;
+    const std::string claims = claimsHtml(claimsOfAll(made));
     return fmt::format(
-        "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
-        "content='width=device-width'><title>Figures</title><link rel='icon' href='data:,'><style>{}</style>"
-        "</head><body><main><h1>Figures</h1><p>edgewise {}</p><div class='card scroll'><table><thead><tr>"
-        "<th>figure</th><th>of</th><th style='text-align:left'>what</th><th "
-        "style='text-align:left'>command</th>"
-        "</tr></thead><tbody>\n{}</tbody></table></div></main><script>{}</script></body></html>\n",
-        compare::kReportStyle, escapedHtml(version()), rows, compare::kSortScript);
+               "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
+               "content='width=device-width'><title>Figures</title><link rel='icon' "
+               "href='data:,'><style>{}</style>"
+               "</head><body><main><h1>Figures</h1><p>edgewise {}; {:.0f} s for all of them</p>\n",
+               compare::kReportStyle, escapedHtml(version()), seconds) +
+           table(
+               "<th>figure</th><th>of</th><th style='text-align:left'>what</th><th "
+               "style='text-align:left'>command</th><th>seconds</th>",
+               rows) +
+           (claims.empty() ? ""
+                           : "<h2>Paper says, we measure, why they differ</h2>" + claims +
+                                 "<p><a href='claims.csv'>claims.csv</a> has the same table.</p>") +
+           fmt::format("</main><script>{}</script></body></html>\n", compare::kSortScript);
+}
+
+std::string indexCsv(const std::vector<MadeFigure>& made) {
+    return claimsCsv(claimsOfAll(made));
 }
 
 }  // namespace edgewise::figures

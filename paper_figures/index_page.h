@@ -12,8 +12,14 @@ struct MadeFigure {
     const Figure* figure;
     std::string page;  ///< relative to the index; empty where it failed
     std::string why;   ///< it failed
+    std::vector<FigureClaim> claims = {};
+    double seconds = 0.0;  ///< that it took, when it was made
+    bool quick = false, reused = false;
+    bool of_this_program = true;  ///< else it lies there from another build
 };
 
-std::string indexHtml(const std::vector<MadeFigure>& made, bool quick);
+std::string indexHtml(const std::vector<MadeFigure>& made);
+/// The claims of all figures.
+std::string indexCsv(const std::vector<MadeFigure>& made);
 
 }  // namespace edgewise::figures

@@ -3,32 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "paper_figures/performance_measure.h"
-#include "pipeline/error.h"
+#include "paper_figures/temporary_folder.h"
 
 namespace edgewise::figures {
 namespace {
-
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = std::filesystem::temp_directory_path() / "edgewise-performance-XXXXXX";
-        if (!mkdtemp(name.data())) throw FailureError(name, "no folder for pictures on their way");
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 constexpr const char* kFreeType = "its bar is FreeType's time: edgewise_bench, peer/freetype";
 

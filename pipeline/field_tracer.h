@@ -55,7 +55,7 @@ struct FieldCones {
     std::vector<sdf::TravellingRay> rays;
     std::vector<std::uint32_t> begin, evaluations;
     std::vector<sdf::ConeGroup> groups;
-    std::vector<sdf::SurfaceHit> surfaces;  ///< where each group is shaded
+    std::vector<sdf::SurfaceHit> surfaces;  ///< where each group is shaded; see ConeSettings::hard_only
     std::size_t samples() const { return rays.size(); }
 };
 

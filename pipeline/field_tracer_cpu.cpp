@@ -281,6 +281,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
             const std::uint32_t sample = tile.samples[k];
             for (std::uint32_t i = out.begin[sample]; i < out.begin[sample + 1]; ++i, ++group) {
                 out.groups[i] = *group;
+                if (cones_.hard_only && !group->hard) continue;
                 const sdf::TraceHit hit{sdf::TraceEnd::kSurface, group->t, NAN,
                                         out.evaluations[sample], 0,        0};
                 out.surfaces[i] = tracer_.fieldHit(out.rays[sample].ray, hit, sign_);

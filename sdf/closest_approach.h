@@ -15,8 +15,9 @@ struct ClosestApproach {
     double distance = 0.0;           ///< > 0
 };
 
-/// Near t_start. Steps to where the ray passes the nearest point of the last step's distance and slope; none
-/// where that does not settle, or the ray is within the solid.
+/// Near t_start, to 1/64 of the pixel's radius where the distance is convex along the ray: between two places
+/// of which one comes nearer and one leads away, no tangent falls lower. None where the ray is within the
+/// solid there, or 16 evaluations find no such two.
 std::optional<ClosestApproach> closestApproach(const CellTapes& cells, const FieldRay& ray, double t_start);
 
 }  // namespace edgewise::sdf

@@ -12,7 +12,8 @@ struct ConeSettings {
     bool backtrace = true;       ///< section 3.6
     int visible = 32;            ///< tracing may end once so many bits of the mask are set
     bool normalize_sky =
-        false;  ///< as printed: divided by the samples' weights; else the sky is the last sample
+        false;               ///< as printed: divided by the samples' weights; else the sky is the last sample
+    bool hard_only = false;  ///< only the groups that the ray itself meets have their surfaces described
     /// As printed, within the loop; else when it has ended. The picture is the same. Vulkan pauses at every
     /// group for it, but all is shaded in the end.
     bool shade_at_once = false;

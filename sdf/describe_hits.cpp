@@ -17,7 +17,9 @@ constexpr std::size_t kFewInstructions = 24;
 /// A hit of less exact arithmetic that lies behind the surface is moved as far before it.
 void describe(const Tape& tape, SurfaceHit& hit, std::size_t materials) {
     const double height = describeHit(tape, hit, materials);
-    if (hit.inside ? height > 0.0 : height < 0.0) hit.p_world -= hit.normal_world * (2.0 * height);
+    if (!(hit.inside ? height > 0.0 : height < 0.0)) return;
+    hit.p_world -= hit.normal_world * (2.0 * height);
+    hit.height = -height;
 }
 
 struct Extent {

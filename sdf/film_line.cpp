@@ -18,18 +18,6 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-std::vector<glm::dvec2> clipped(const std::vector<glm::dvec2>& polygon, const FilmLine& line) {
-    std::vector<glm::dvec2> inner;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-        const double at_p = line.at(p), at_q = line.at(q);
-        if (at_p <= 0.0) inner.push_back(p);
-        if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0))
-            inner.push_back(p + (q - p) * (at_p / (at_p - at_q)));
-    }
-    return inner;
-}
-
 }  // namespace
 
 /// All rays that touch the edge there lie in the plane through the eye whose normal is outwards, the view's
@@ -78,8 +66,30 @@ std::vector<glm::dvec2> squareWithin(const glm::dvec2& centre_px, std::span<cons
     std::vector<glm::dvec2> polygon;
     for (const glm::dvec2& corner : {glm::dvec2(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
         polygon.push_back(centre_px + corner);
-    for (const FilmLine& line : lines) polygon = clipped(polygon, line);
+    for (const FilmLine& line : lines) polygon = within(polygon, line);
     return polygon;
+}
+
+std::vector<glm::dvec2> within(std::span<const glm::dvec2> polygon, const FilmLine& line) {
+    std::vector<glm::dvec2> inner;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const double at_p = line.at(p), at_q = line.at(q);
+        if (at_p <= 0.0) inner.push_back(p);
+        if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0))
+            inner.push_back(p + (q - p) * (at_p / (at_p - at_q)));
+    }
+    return inner;
+}
+
+/// On the same side of all edges, whichever way they turn.
+bool holds(std::span<const glm::dvec2> polygon, const glm::dvec2& p) {
+    bool left = false, right = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const double side = cross(polygon[(i + 1) % polygon.size()] - polygon[i], p - polygon[i]);
+        left |= side > 0.0, right |= side < 0.0;
+    }
+    return polygon.size() > 2 && !(left && right);
 }
 
 /// From the first corner, so that far polygons cancel nothing.

@@ -32,6 +32,10 @@ glm::dvec2 filmPosition(const RayGrid& grid, const glm::dvec3& p_world);
 
 /// The part of a square of side 1 that lies on the inner side of all lines.
 std::vector<glm::dvec2> squareWithin(const glm::dvec2& centre_px, std::span<const FilmLine> lines);
+/// The part of a convex polygon on the line's inner side.
+std::vector<glm::dvec2> within(std::span<const glm::dvec2> polygon, const FilmLine& line);
+/// Whether a convex polygon holds the point.
+bool holds(std::span<const glm::dvec2> polygon, const glm::dvec2& p_px);
 double areaOf(std::span<const glm::dvec2> polygon);
 glm::dvec2 centroidOf(std::span<const glm::dvec2> polygon);
 

@@ -18,6 +18,7 @@ double describeHit(const TapeView& tape, SurfaceHit& hit, std::size_t materials)
     const bool sloped = slope > 0.0 && std::isfinite(slope);
     if (std::isnan(hit.value)) hit.value = value;
     const double height = sloped ? value / slope : 0.0;
+    hit.height = height;
     hit.normal_world = sloped ? gradient / slope : glm::dvec3(0.0, 1.0, 0.0);
     const Instruction& winner = winnerAt(tape, hit.p_world, hit.p_local);
     hit.p_local = localAt(tape, winner, patternPoint(hit.p_world, hit.normal_world, height, hit.t));

@@ -22,6 +22,7 @@ struct SurfaceHit {
     std::uint32_t material = 0;
     std::optional<glm::dvec3> color;  ///< in place of the material's
     double value = 0.0;               ///< the field's there; analytic shapes: 0
+    double height = 0.0;              ///< above the surface: value over slope
     std::uint32_t evaluations = 0, iterations = 0;
     bool ofField() const { return shape == kField; }
 };

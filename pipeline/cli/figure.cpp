@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "paper_figures/figure_stamp.h"
 #include "paper_figures/index_page.h"
+#include "paper_figures/make_figure.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
@@ -45,33 +47,67 @@ std::vector<const Figure*> chosenFigures(const std::vector<std::string>& names) 
     return chosen;
 }
 
-/// DIR/NAME with the figure's files. What it could not make is said, and the others go on.
-MadeFigure makeFigure(const Figure& figure, const FigureArguments& arguments, const ResultFolder& folder,
-                      Progress& progress) {
-    try {
-        const auto files = figure.make({arguments.quick, progress});
-        throwIfInterrupted();
-        const ResultFolder own((folder / figure.name).string());
-        for (const figures::FigureFile& file : files) writeAtomically(own / file.name, file.bytes);
-        return {&figure, figure.name + "/" + files.front().name, ""};
-    } catch (const FailureError& error) {
-        return {&figure, "", error.what()};
+/// Of one figure among those that are made: stages are named after it.
+class FigureProgress : public Progress {
+  public:
+    FigureProgress(Progress& outer, const Figure& figure, std::size_t index, std::size_t count)
+        : outer_(outer), prefix_(fmt::format("{}/{} {}", index + 1, count, figure.name)) {
+        outer_.stage(prefix_, 0);
     }
+    void stage(std::string_view name, std::size_t total) override {
+        outer_.stage(fmt::format("{}: {}", prefix_, name), total);
+    }
+    void advance(std::size_t done) override { outer_.advance(done); }
+    bool cancelled() override { return outer_.cancelled(); }
+
+  private:
+    Progress& outer_;
+    std::string prefix_;
+};
+
+/// DIR/NAME with the figure's files. What it could not make is said at once, and the others go on.
+MadeFigure makeFigure(const Figure& figure, const figures::FigureSource& source, const ResultFolder& folder,
+                      Progress& progress) {
+    const ResultFolder own((folder / figure.name).string());
+    MadeFigure made = figures::makeFigure(figure, source, own.path(), progress);
+    if (!made.page.empty()) return made;
+    wipeProgressLine();
+    printError(figure.name + ": " + made.why);
+    return made;
+}
+
+/// Those that were asked for, and those that lie there from before.
+std::vector<MadeFigure> withOlder(std::vector<MadeFigure> made, const figures::FigureSource& source,
+                                  const ResultFolder& folder) {
+    std::vector<MadeFigure> all;
+    for (const Figure& figure : figures::figureRegistry()) {
+        const auto fresh = std::ranges::find(made, &figure, &MadeFigure::figure);
+        if (fresh != made.end())
+            all.push_back(std::move(*fresh));
+        else if (const auto stamp = figures::readStamp(folder / figure.name))
+            all.push_back({&figure, figure.name + "/" + stamp->page, "", stamp->claims, stamp->seconds,
+                           stamp->source.quick, true, stamp->source.program == source.program});
+    }
+    return all;
 }
 
 void makeFigures(const FigureArguments& arguments) {
     const auto chosen = chosenFigures(arguments.names);
     const ResultFolder folder(arguments.folder);
+    const figures::FigureSource source = figures::thisProgram(arguments.quick);
     std::vector<MadeFigure> made;
     {
-        ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
-        for (const Figure* figure : chosen) made.push_back(makeFigure(*figure, arguments, folder, progress));
+        ProgressBar bar(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            FigureProgress progress(bar, *chosen[i], i, chosen.size());
+            made.push_back(makeFigure(*chosen[i], source, folder, progress));
+        }
     }
-    writeAtomically(folder / "index.html", figures::indexHtml(made, arguments.quick));
-    const auto failed = std::ranges::find_if(made, [](const MadeFigure& one) { return one.page.empty(); });
-    for (const MadeFigure& one : made)
-        if (one.page.empty() && &one != &*failed) printError(one.figure->name + ": " + one.why);
-    if (failed != made.end()) throw FailureError(failed->figure->name, failed->why);
+    const bool failed = std::ranges::any_of(made, [](const MadeFigure& one) { return one.page.empty(); });
+    const std::vector<MadeFigure> all = withOlder(std::move(made), source, folder);
+    writeAtomically(folder / "claims.csv", figures::indexCsv(all));
+    writeAtomically(folder / "index.html", figures::indexHtml(all));
+    if (failed) throw ProblemList({}, 1);  // said when it happened
     if (!arguments.quiet) fmt::print("{}\n", (folder / "index.html").string());
 }
 
@@ -87,7 +123,7 @@ void addFigure(CLI::App& program) {
                      "index.html, and a folder with the files of each figure")
         ->type_name("DIR")
         ->required();
-    command->add_flag("--quick", arguments->quick, "a small version of everything");
+    command->add_flag("--quick", arguments->quick, "a small version of everything, in minutes");
     command->add_flag("--quiet", arguments->quiet, "no progress bar, no chatter");
     command->callback([arguments] { makeFigures(*arguments); });
 }

@@ -1,14 +1,11 @@
 // A pixel that edges cross: which surfaces its rays see, and which part of it each takes.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 
-#include "sdf/film_line.h"
-#include "sdf/scene_trace.h"
-#include "sdf/surface_light.h"
+#include "sdf/surface_tracer.h"
 
 namespace edgewise {
 
@@ -21,16 +18,27 @@ struct CellPiece {
     double bend =
         0.0;  ///< the change of the normal per unit of length, as far as neighbours on the surface tell
     std::optional<sdf::SurfaceHit> hit;  ///< met within this pixel, along the ray through seen_px
-    double weight = 0.0;
+    double weight = 0.0;                 ///< the area of its parts
+    std::uint32_t shade = kUnshaded;     ///< of what is shaded: its place
+    static constexpr std::uint32_t kUnshaded = 0xffffffffu;
 };
 
-/// The plane of a hit, and sky for a miss.
+/// The plane of the surface that a hit lies above, and sky for a miss.
 CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px);
 /// Whether both are parts of one smooth surface: their planes are one within a quarter of the pixel's radius
 /// there.
 bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius);
 /// A surface that bends from the one place to the other bends as much from either.
 void takeBend(CellPiece& piece, const CellPiece& other);
+/// A point's distance from the piece's plane.
+double offPlane(const CellPiece& piece, const glm::dvec3& p_world);
+
+/// A convex polygon of which a piece takes a share: all of it, but where samples were counted.
+struct CellPart {
+    int piece = 0;
+    double share = 1.0;
+    std::vector<glm::dvec2> polygon_px;
+};
 
 struct EdgeCell {
     /// Beside the centre: the four corners, then the standard sample locations, no two in a row or column.
@@ -43,42 +51,19 @@ struct EdgeCell {
     double t_start = 0.0;          ///< no surface lies before it in the pixel
     std::optional<double> soft_t;  ///< where a solid that the centre's ray misses comes into its cone
     std::vector<CellPiece> pieces;
-    int labels[kMost] = {};  ///< of samples: which piece
+    std::vector<CellPart> parts;  ///< of all the pixel, when it is resolved
+    int labels[kMost] = {};       ///< of samples: which piece
     double depths[kMost] = {};
     int samples = 1;  ///< that have labels; the centre's first
-    bool resolved = false;
+    bool resolved = false, counted = false;
 
     glm::dvec2 sampleAt(int i) const;
     /// Of the samples that see the piece the one nearest to their mean; kUnknown: none does.
     int sampleOf(int piece) const;
-    /// Divides it by counting the labels at the standard locations.
-    void divideByCount();
+    void add(CellPart part);
 };
 
 /// The standard location i of 16 within a pixel, moved by 1/32 px so that their mean is the centre.
 glm::dvec2 countedPlace(const glm::dvec2& centre_px, int i);
-
-/// Labels samples and divides pixels.
-class EdgeCells {
-  public:
-    /// Refers to its arguments. `tracer`: of the scene, for distances between rays and solids; without it
-    /// there are no outlines.
-    EdgeCells(const sdf::RayGrid& grid, const sdf::SceneTracer* tracer) : grid_(grid), tracer_(tracer) {}
-
-    /// The label of sample i at that depth; kUnknown where it is on none of the pieces.
-    int labelOf(const EdgeCell& cell, int i, double depth) const;
-    /// Divides the cell by lines, if what its samples see agrees with them.
-    void divideByLines(EdgeCell& cell) const;
-
-  private:
-    sdf::FieldRay rayOf(const glm::dvec2& p_px) const { return grid_.ray(p_px); }
-    bool divideByCrease(EdgeCell& cell, int a, int b) const;
-    bool divideByOutline(EdgeCell& cell) const;
-    bool divideByStrip(EdgeCell& cell) const;
-    std::optional<sdf::FilmLine> outlineFrom(const glm::dvec2& p_px, double t) const;
-
-    const sdf::RayGrid& grid_;
-    const sdf::SceneTracer* tracer_;
-};
 
 }  // namespace edgewise

@@ -30,7 +30,12 @@ PixelBox within(const PixelBox& box, const Film& film) {
 class FieldFrame {
   public:
     FieldFrame(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make)
-        : in_(in), tracer_(make(in, settings)), aov_(in), pictures_(in.options.dump_dir, in.film.crop) {
+        : in_(in),
+          settings_(settings),
+          make_(make),
+          tracer_(make(in, settings)),
+          aov_(in),
+          pictures_(in.options.dump_dir, in.film.crop) {
         result_.image = ImageBuffer(in.film.crop);
         aov_.begin(result_.image);
     }
@@ -58,7 +63,7 @@ class FieldFrame {
             pictures_.add(window, samples);
             forRows(part, [&](int x, int y) { filterPixel(weights, window, samples, x, y); });
             watch_.book("filter", stages_);
-            takeAovs(part);
+            takeAovs(per_side, part);
         });
         return finished();
     }
@@ -117,11 +122,17 @@ class FieldFrame {
         result_.image.edge[pixel] = spread.edge();
     }
 
-    void takeAovs(const PixelBox& part) {
+    /// Of one sample a pixel, hit as exactly as its size asks for.
+    void takeAovs(int per_side, const PixelBox& part) {
         if (!aov_.active()) return;
+        if (!aov_tracer_) {
+            FieldSettings single = settings_;
+            single.trace.threshold *= per_side;
+            aov_tracer_ = make_(in_, single);
+        }
         FieldWindow window;
         window.pixels = part;
-        const FieldSamples samples = tracer_->trace(window);
+        const FieldSamples samples = aov_tracer_->trace(window);
         forRows(part, [&](int x, int y) {
             const std::size_t i = static_cast<std::size_t>(y - part.y0) * window.stride() + (x - part.x0);
             aov_.pixel(x, y, samples, i, result_.image);
@@ -136,7 +147,9 @@ class FieldFrame {
     }
 
     const MethodInput in_;
-    std::unique_ptr<FieldTracer> tracer_;
+    const FieldSettings settings_;
+    const FieldTracerMaker& make_;
+    std::unique_ptr<FieldTracer> tracer_, aov_tracer_;
     FieldAov aov_;
     FieldPictures pictures_;
     MethodResult result_;

@@ -97,7 +97,9 @@ MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, const Fi
 }
 
 MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
-    return traceFiltered(in, {}, *spec.number, make);
+    FieldSettings settings;
+    settings.trace.threshold /= *spec.number;
+    return traceFiltered(in, settings, *spec.number, make);
 }
 
 MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
@@ -106,7 +108,7 @@ MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const Fiel
     const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
     FieldSettings settings;
     settings.cones = conesOf(spec);
-    settings.cones->coverage /= per_side;
+    settings.cones->coverage /= per_side, settings.trace.threshold /= per_side;
     if (per_side == 1) return tracePixels(all, settings, coneTracerMaker(make));
     return traceFiltered(all, settings, per_side, coneTracerMaker(make));
 }
@@ -116,7 +118,9 @@ MethodResult traceCtssX(const MethodSpec&, const MethodInput& in, const FieldTra
     const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
     FieldSettings settings;
     settings.cones.emplace();
-    settings.cones->relaxed = true;
+    settings.cones->relaxed = settings.cones->hard_only = true;
+    // Hits float over surfaces, and the borders of their light with them: no more than outlines are off.
+    settings.trace.threshold = 1.0 / 64.0;
     // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
     settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
     return tracePixels(all, settings, coneXMaker(make));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/methods/edge_cell.h"
+#include "sdf/film_line.h"
 
 namespace edgewise {
 namespace {
@@ -30,6 +31,18 @@ struct Border {
 };
 
 const std::array<glm::dvec2, 4> kCorners{glm::dvec2(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+
+/// The hit moved along its tangent plane, no farther than a pixel's width times what its slope makes of
+/// it.
+sdf::SurfaceHit onPlane(sdf::SurfaceHit hit, const sdf::FieldRay& ray) {
+    const double t = glm::dot(hit.p_world - ray.origin_world, hit.normal_world) /
+                     glm::dot(ray.direction_world, hit.normal_world);
+    if (!(t > 0.0) || !(t < ray.t_max)) return hit;
+    const glm::dvec3 p = ray.origin_world + ray.direction_world * t;
+    hit.p_local += p - hit.p_world;
+    hit.p_world = p, hit.t = t;
+    return hit;
+}
 
 class LightBorders {
   public:
@@ -64,18 +77,6 @@ class LightBorders {
         std::vector<Seen> seen(places.size());
         for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {colors[i], sights[i]};
         return seen;
-    }
-
-    /// The hit moved along its tangent plane, no farther than a pixel's width times what its slope makes of
-    /// it.
-    static sdf::SurfaceHit onPlane(sdf::SurfaceHit hit, const sdf::FieldRay& ray) {
-        const double t = glm::dot(hit.p_world - ray.origin_world, hit.normal_world) /
-                         glm::dot(ray.direction_world, hit.normal_world);
-        if (!(t > 0.0) || !(t < ray.t_max)) return hit;
-        const glm::dvec3 p = ray.origin_world + ray.direction_world * t;
-        hit.p_local += p - hit.p_world;
-        hit.p_world = p, hit.t = t;
-        return hit;
     }
 
     /// Corners that all see what the centre sees are done with; two kinds and two crossings make a border.
@@ -153,6 +154,27 @@ std::vector<glm::dvec4> meansOver(const sdf::RayGrid& grid, FieldTracer& tracer,
                                   const std::vector<LightCell>& cells) {
     if (cells.empty()) return {};
     return LightBorders(grid, tracer, cells).means();
+}
+
+std::vector<glm::dvec4> meansAt(const sdf::RayGrid& grid, FieldTracer& tracer,
+                                std::span<const LitPiece> pieces) {
+    std::vector<sdf::TravellingRay> rays;
+    std::vector<sdf::SurfaceHit> hits;
+    for (const LitPiece& piece : pieces)
+        for (const glm::dvec2& place : piece.places_px) {
+            rays.push_back({grid.ray(place), piece.sign});
+            hits.push_back(onPlane(piece.hit, rays.back().ray));
+        }
+    if (rays.empty()) return {};
+    const std::vector<glm::dvec4> colors = tracer.shade(rays, std::move(hits));
+    std::vector<glm::dvec4> means;
+    const glm::dvec4* color = colors.data();
+    for (const LitPiece& piece : pieces) {
+        glm::dvec4 sum(0.0);
+        for (std::size_t k = 0; k < piece.places_px.size(); ++k) sum += *color++;
+        means.push_back(sum / static_cast<double>(piece.places_px.size()));
+    }
+    return means;
 }
 
 }  // namespace edgewise

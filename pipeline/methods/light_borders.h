@@ -19,4 +19,15 @@ struct LightCell {
 std::vector<glm::dvec4> meansOver(const sdf::RayGrid& grid, FieldTracer& tracer,
                                   const std::vector<LightCell>& cells);
 
+/// A surface at places of the film.
+struct LitPiece {
+    double sign;          ///< of its rays
+    sdf::SurfaceHit hit;  ///< its tangent plane stands for the surface
+    std::vector<glm::dvec2> places_px;
+};
+
+/// The mean colour of each over its places.
+std::vector<glm::dvec4> meansAt(const sdf::RayGrid& grid, FieldTracer& tracer,
+                                std::span<const LitPiece> pieces);
+
 }  // namespace edgewise

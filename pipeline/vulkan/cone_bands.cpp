@@ -86,7 +86,7 @@ void ConeBands::add(Band& band, FieldCones& out) {
             takeGroups(band, ray, out.groups.data() + out.begin[before + sample]);
             for (std::uint32_t g = out.begin[before + sample]; g < out.begin[before + sample + 1]; ++g) {
                 out.surfaces[g] = FieldBatches::surfaceAt(out.rays[before + sample], out.groups[g].t);
-                of_tile.push_back(&out.surfaces[g]);
+                if (!cones_.settings().hard_only || out.groups[g].hard) of_tile.push_back(&out.surfaces[g]);
             }
         }
         batches_.describeTree(of_tile);

@@ -50,6 +50,8 @@ class ConeRays {
     /// The first groups of all rays, then the second.
     std::span<const GpuGroup> groups() const { return buffers_.answers->read<GpuGroup>(count_ * room_); }
 
+    const sdf::ConeSettings& settings() const { return settings_; }
+
   private:
     const Device& device_;
     sdf::ConeSettings settings_;

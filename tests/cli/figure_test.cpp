@@ -1,8 +1,10 @@
 // The papers' figures as a user makes them.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "pipeline/read_image.h"
 #include "tests/cli/run_program.h"
@@ -92,7 +94,8 @@ TEST(FigureCommand, ConeTracingWritesItsFiles) {
 TEST(FigureCommand, ListsItsNames) {
     const ProgramRun run = runProgram({"figures"});
     EXPECT_EQ(run.status, 0);
-    for (const char* name : {"filter-study: ", "performance: ", "cone-tracing: "})
+    for (const char* name : {"filter-study: ", "performance: ", "cone-tracing: ", "nsaa-1: ", "nsaa-times: ",
+                             "sphere-drawn: ", "lottes: "})
         EXPECT_NE(run.out.find(name), std::string::npos) << name;
 }
 
@@ -112,9 +115,125 @@ TEST(FigureCommand, WrongOnesAreOneLineAndLeaveNothing) {
 
 TEST(FigureCommand, CtrlCEndsWith130AndLeavesNothing) {
     const TemporaryFolder folder;
-    const ProgramRun run = runProgram({"figure", "all", "-o", "out"}, folder.path(), 1000);
+    const ProgramRun run = runProgram({"figure", "performance", "-o", "out"}, folder.path(), 1000);
     EXPECT_EQ(run.status, 130) << run.err;
     EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(FigureCommand, AllOfThemQuickly) {
+    const TemporaryFolder folder;
+    const ProgramRun done = runProgram({"figure", "all", "--quick", "-o", "out"}, folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "");
+    const auto out = folder.path() / "out";
+    for (const char* name :
+         {"nsaa-1/pixel.pdf", "nsaa-2/pipeline.pdf", "nsaa-2/segments.png", "nsaa-3/conservative.pdf",
+          "nsaa-4/errors.pdf", "nsaa-4/zone-plate_rim_msaa_16.png", "nsaa-5/errors.svg",
+          "nsaa-5/log-grid_fine_csaa_32.png", "nsaa-6/log-grid_nsaa_cone.png",
+          "nsaa-7/torus-sequence_far_nsaa_gaussian.png", "nsaa-times/shares.pdf", "nsaa-times/results.csv"})
+        EXPECT_FALSE(readFile(out / name).empty()) << name;
+    EXPECT_EQ(readImage(out / "nsaa-4" / "zone-plate_rim_msaa_16.png").box.width(), 4 * 64);
+    // Errors fall as samples become more, and nsaa is its own reference.
+    std::map<std::string, double> rmse;
+    for (const std::string& row : lines(readFile(out / "nsaa-4" / "results.csv"))) {
+        std::vector<std::string> fields;
+        std::istringstream text(row);
+        for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+        if (fields.size() > 7 && fields[0] == "zone-plate") rmse[fields[1]] = std::stod(fields[7]);
+    }
+    for (const auto& [more, fewer] : {std::pair("msaa:2", "none"), std::pair("msaa:4", "msaa:2"),
+                                      std::pair("msaa:8", "msaa:4"), std::pair("msaa:16", "msaa:8")})
+        EXPECT_LT(rmse.at(more), rmse.at(fewer)) << more;
+    EXPECT_EQ(rmse.at("nsaa"), 0.0);
+    const std::string claims = readFile(out / "claims.csv");
+    for (const char* claim : {"share of exact visibility", "> 90", "< 5", "in the 100 MB range"})
+        EXPECT_NE(claims.find(claim), std::string::npos) << claim;
+    const std::string index = readFile(out / "index.html");
+    EXPECT_NE(index.find("Paper says, we measure"), std::string::npos);
+    for (const std::string& figure : lines(runProgram({"figures"}).out)) {
+        const std::string page = figure.substr(0, figure.find(':')) + "/report.html";
+        EXPECT_NE(index.find("href='" + page + "'"), std::string::npos) << page;
+        EXPECT_FALSE(readFile(out / page).empty()) << page;
+    }
+    for (const char* name :
+         {"sphere-drawn/figure-4.pdf", "sphere-drawn/results.csv", "sphere-scenes/jewel.png",
+          "sphere-scenes/results.csv", "lottes/pattern.pdf", "lottes/frame_0.png"})
+        EXPECT_FALSE(readFile(out / name).empty()) << name;
+    // over-relaxation takes fewer steps, and one of them is taken back, as Figure 3 shows
+    int classic = 0, relaxed = 0, failed = 0;
+    for (const std::string& row : lines(readFile(out / "sphere-drawn" / "results.csv"))) {
+        classic += row.starts_with("classic,"), relaxed += row.starts_with("relaxed,");
+        failed += row.starts_with("relaxed,") && row.ends_with(",true");
+    }
+    EXPECT_LT(relaxed, classic);
+    EXPECT_EQ(failed, 1);
+}
+
+TEST(FigureCommand, ASecondRunMakesWhatChanged) {
+    const TemporaryFolder folder;
+    const auto stamp = [&](const char* name) {
+        return readFile(folder.path() / "out" / name / "stamp.json");
+    };
+    ASSERT_EQ(runProgram({"figure", "nsaa-1", "nsaa-3", "--quick", "-o", "out"}, folder.path()).status, 0);
+    const std::string first = stamp("nsaa-1"), third = stamp("nsaa-3");
+    writeFile(folder.path() / "out" / "nsaa-3" / "results.csv", "spoilt");
+    ASSERT_EQ(runProgram({"figure", "nsaa-1", "nsaa-3", "--quick", "-o", "out"}, folder.path()).status, 0);
+    EXPECT_EQ(stamp("nsaa-1"), first);  // the time that it took, too
+    EXPECT_NE(stamp("nsaa-3"), third);
+    EXPECT_NE(readFile(folder.path() / "out" / "nsaa-3" / "results.csv"), "spoilt");
+    // what lies there already is on the page too
+    ASSERT_EQ(runProgram({"figure", "nsaa-1", "-o", "out"}, folder.path()).status, 0);
+    EXPECT_NE(stamp("nsaa-1"), first);
+    const std::string page = readFile(folder.path() / "out" / "index.html");
+    EXPECT_NE(page.find("nsaa-3/report.html"), std::string::npos);
+    EXPECT_NE(page.find("samples gathered in vain"), std::string::npos);
+}
+
+TEST(FigureCommand, OneThatFailsSaysSoAndOthersGoOn) {
+    const TemporaryFolder folder;
+    // nsaa-2 has stages dumped there
+    const ProgramRun run = runOther(
+        "env",
+        {"TMPDIR=nowhere", EDGEWISE_PROGRAM, "figure", "nsaa-1", "nsaa-2", "nsaa-3", "--quick", "-o", "out"},
+        folder.path());
+    EXPECT_EQ(run.status, 1);
+    ASSERT_EQ(lines(run.err).size(), 1u) << run.err;
+    EXPECT_TRUE(run.err.starts_with("edgewise: error: nsaa-2: ")) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "nsaa-2"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "nsaa-3" / "report.html"));
+    EXPECT_NE(readFile(folder.path() / "out" / "index.html").find("TMPDIR"), std::string::npos);
+}
+
+/// All pictures of a page are there, and the browser has nothing to say.
+TEST(FigureCommand, PagesAreWholeInABrowser) {
+    const TemporaryFolder folder;
+    if (runOther("chromium", {"--version"}, folder.path()).status != 0)
+        GTEST_SKIP() << "chromium is not installed";
+    ASSERT_EQ(
+        runProgram({"figure", "nsaa-1", "nsaa-2", "nsaa-4", "--quick", "-o", "out"}, folder.path()).status,
+        0);
+    constexpr const char* kProbe = R"js(<script>addEventListener("load", () => {
+  const pictures = [...document.images], note = document.createElement("pre");
+  note.textContent = "PROBE" + pictures.filter((p) => !p.naturalWidth).length + " of " + pictures.length + "PROBE";
+  document.body.append(note);
+});</script>)js";
+    for (const auto& [page, pictures] : {std::pair("index", 0), std::pair("nsaa-1/report", 0),
+                                         std::pair("nsaa-2/report", 0), std::pair("nsaa-4/report", 18)}) {
+        const auto file = folder.path() / "out" / (page + std::string(".html"));
+        const auto probed = folder.path() / "out" / (page + std::string("-probed.html"));
+        writeFile(probed, readFile(file) + kProbe);
+        const ProgramRun browser =
+            runOther("chromium",
+                     {"--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                      "--user-data-dir=" + (folder / "profile").string(), "--enable-logging=stderr",
+                      "--virtual-time-budget=20000", "--dump-dom", "file://" + probed.string()},
+                     folder.path());
+        ASSERT_EQ(browser.status, 0) << browser.err;
+        EXPECT_EQ(browser.err.find("CONSOLE"), std::string::npos) << browser.err;
+        EXPECT_NE(browser.out.find("PROBE0 of " + std::to_string(pictures) + "PROBE</pre>"),
+                  std::string::npos)
+            << page;
+    }
 }
 
 }  // namespace

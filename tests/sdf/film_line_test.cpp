@@ -210,5 +210,33 @@ TEST(FilmLine, AnOutlineIsItsStraightEdge) {
     EXPECT_FALSE(outline(randomGrid(random, false), {0, 0, 0}, {0, 0, 0}));
 }
 
+/// Halving again and again loses nothing, and a point is in the half that its side of the line says.
+TEST(FilmLine, HalvesOfPolygonsHoldTheirPoints) {
+    std::mt19937 random = seeded();
+    const glm::dvec2 centre(12.5, 700.5);
+    std::uniform_real_distribution<> place(-0.5, 0.5);
+    int cut = 0, asked = 0;
+    for (int round = 0; round < 500; ++round) {
+        std::vector<glm::dvec2> polygon = squareWithin(centre, {});
+        for (int k = 0; k < 4; ++k) {
+            const FilmLine line = randomLine(random, centre, 0.4);
+            const std::vector<glm::dvec2> inner = within(polygon, line),
+                                          outer = within(polygon, line.reversed());
+            EXPECT_NEAR(areaOf(inner) + areaOf(outer), areaOf(polygon), 64.0 * 700.0 * kEpsilon);
+            const glm::dvec2 p = centre + glm::dvec2(place(random), place(random));
+            const double side = line.at(p);
+            if (holds(polygon, p) && std::abs(side) > 1e-9) {
+                ++asked;
+                EXPECT_EQ(holds(inner, p), side < 0.0);
+                EXPECT_EQ(holds(outer, p), side > 0.0);
+            }
+            cut += areaOf(inner) > 0.0 && areaOf(outer) > 0.0;
+            polygon = areaOf(inner) > areaOf(outer) ? inner : outer;
+        }
+    }
+    EXPECT_GT(cut, 500);
+    EXPECT_GT(asked, 500);
+}
+
 }  // namespace
 }  // namespace edgewise::sdf

@@ -1,0 +1,73 @@
+#include "pipeline/methods/cell_lights.h"
+
+#include <algorithm>
+
+#include "pipeline/methods/light_borders.h"
+#include "sdf/film_line.h"
+
+namespace edgewise {
+
+/// Whether a neighbour on the surface of that shade has another sight; its own pixel is one too.
+bool CellLights::seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const {
+    const CellPiece piece = pieceOf(&shades.hits[shade], {});
+    const auto differs = [&](std::size_t j) {
+        const std::uint32_t other = shades.of_pixel[j];
+        return other != kNoGroup && shades.sights[other] != shades.sights[shade] &&
+               smoothlyOne(piece, pieceOf(rows_.hitOf(j), {}), rows_.radiusOf(j));
+    };
+    return differs(pixel) || std::ranges::any_of(rows_.around(pixel), differs);
+}
+
+/// The standard locations that the piece has; else a place within it.
+std::vector<glm::dvec2> CellLights::placesOf(const EdgeCell& cell, int piece) const {
+    std::vector<glm::dvec2> places;
+    for (const CellPart& part : cell.parts) {
+        if (part.piece != piece) continue;
+        for (int i = 0; i < EdgeCell::kStandard; ++i) {
+            const glm::dvec2 place = countedPlace(cell.centre_px, i);
+            const bool counted = part.share < 1.0 && cell.labels[1 + EdgeCell::kCorners + i] != piece;
+            if (!counted && sdf::holds(part.polygon_px, place)) places.push_back(place);
+        }
+    }
+    if (places.empty()) places.push_back(cell.pieces[static_cast<std::size_t>(piece)].seen_px);
+    return places;
+}
+
+std::size_t CellLights::averagePieces(CellShades& shades) const {
+    std::vector<LitPiece> lit;
+    std::vector<std::uint32_t> of;
+    for (const EdgeCell& cell : cells_)
+        for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
+            const CellPiece& piece = cell.pieces[k];
+            if (!(piece.weight > 0.0 && piece.weight < 1.0) || piece.shade == kNoGroup) continue;
+            if (!seesOther(shades, cell.pixel, piece.shade)) continue;
+            lit.push_back({cell.sign, shades.hits[piece.shade], placesOf(cell, static_cast<int>(k))});
+            of.push_back(piece.shade);
+        }
+    const std::vector<glm::dvec4> means = meansAt(grid_, device_, lit);
+    for (std::size_t i = 0; i < of.size(); ++i) shades.colors[of[i]] = means[i];
+    return of.size();
+}
+
+std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
+                                                  std::vector<glm::dvec4>& colors) const {
+    std::vector<char> divided(rows_.cones.samples());
+    for (const EdgeCell& cell : cells_) divided[cell.pixel] = cell.pieces.front().weight < 1.0;
+    std::vector<std::size_t> found;
+    std::vector<LightCell> light_cells;
+    const std::size_t height = static_cast<std::size_t>(rows_.pixels.height()), width = rows_.width();
+    for (std::size_t y = 1; y + 1 < height; ++y)
+        for (std::size_t x = 1; x + 1 < width; ++x) {
+            const std::size_t i = y * width + x;
+            const std::uint32_t own = shades.of_pixel[i];
+            if (divided[i] || own == kNoGroup || !seesOther(shades, i, own)) continue;
+            found.push_back(i);
+            light_cells.push_back({rows_.centreOf(i), rows_.cones.rays[i].sign, shades.hits[own], colors[i],
+                                   shades.sights[own]});
+        }
+    const std::vector<glm::dvec4> means = meansOver(grid_, device_, light_cells);
+    for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = means[k];
+    return found;
+}
+
+}  // namespace edgewise

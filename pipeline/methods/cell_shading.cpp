@@ -1,0 +1,107 @@
+#include "pipeline/methods/cell_shading.h"
+
+#include <tbb/parallel_for.h>
+
+#include "pipeline/methods/cell_sampling.h"
+#include "pipeline/methods/pattern_footprint.h"
+
+namespace edgewise {
+
+CellShades CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells) const {
+    meetPieces(cells);
+    CellShades shades;
+    shades.of_pixel.assign(rows.cones.samples(), kNoGroup);
+    const auto add = [&](const sdf::TravellingRay& ray, const sdf::SurfaceHit& hit) {
+        shades.rays.push_back(ray), shades.hits.push_back(hit);
+        return static_cast<std::uint32_t>(shades.rays.size() - 1);
+    };
+    std::vector<std::uint32_t> pixel_of;
+    std::vector<char> hidden(rows.cones.samples());
+    for (const EdgeCell& cell : cells) hidden[cell.pixel] = cell.pieces.front().weight == 0.0;
+    for (std::size_t i = 0; i < rows.cones.samples(); ++i) {
+        const sdf::SurfaceHit* hit = rows.hitOf(i);
+        if (!hit || hidden[i]) continue;
+        shades.of_pixel[i] = add(rows.cones.rays[i], *hit);
+        pixel_of.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (EdgeCell& cell : cells) {
+        cell.pieces.front().shade = shades.of_pixel[cell.pixel];
+        for (std::size_t k = 1; k < cell.pieces.size(); ++k) {
+            CellPiece& piece = cell.pieces[k];
+            if (piece.weight == 0.0 || piece.sky || !piece.hit) continue;
+            piece.shade = add({grid_.ray(piece.seen_px), cell.sign}, *piece.hit);
+            pixel_of.push_back(static_cast<std::uint32_t>(cell.pixel));
+        }
+    }
+    tbb::parallel_for(std::size_t(0), pixel_of.size(),
+                      [&](std::size_t k) { takePattern(rows, pixel_of[k], shades.hits[k]); });
+    shades.colors = device_.shade(shades.rays, shades.hits, &shades.sights);
+    return shades;
+}
+
+/// Pieces that only neighbours have met are met within their pixel.
+void CellShading::meetPieces(std::vector<EdgeCell>& cells) const {
+    std::vector<sdf::TravellingRay> rays;
+    std::vector<double> depths;
+    std::vector<std::pair<EdgeCell*, std::size_t>> pieces;
+    for (EdgeCell& cell : cells)
+        for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
+            CellPiece& piece = cell.pieces[k];
+            if (piece.weight == 0.0 || piece.sky || piece.hit) continue;
+            const int sample = cell.sampleOf(static_cast<int>(k));
+            if (sample == EdgeCell::kUnknown) continue;
+            piece.seen_px = cell.sampleAt(sample);
+            rays.push_back(rayFrom(grid_, cell, piece.seen_px));
+            depths.push_back(cell.depths[sample]);
+            pieces.emplace_back(&cell, k);
+        }
+    const std::vector<sdf::SurfaceHit> hits = device_.batches().describe(rays, depths);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (hits[i].hit) pieces[i].first->pieces[pieces[i].second].hit = hits[i];
+}
+
+/// The change of the place in the shape's frame from a pixel to the next, from neighbours on the same
+/// surface.
+std::optional<glm::dvec3> CellShading::stepOf(const ConeRows& rows, std::size_t i, const sdf::SurfaceHit& hit,
+                                              std::size_t before, std::size_t after) const {
+    const CellPiece own = pieceOf(&hit, {});
+    const auto local = [&](std::size_t j) -> std::optional<glm::dvec3> {
+        const sdf::SurfaceHit* other = rows.hitOf(j);
+        if (!other || !smoothlyOne(own, pieceOf(other, {}), rows.radiusOf(j))) return std::nullopt;
+        return other->p_local;
+    };
+    const auto b = local(before), a = local(after), c = local(i);
+    if (a && b) return 0.5 * (*a - *b);
+    if (a && c) return *a - *c;
+    if (b && c) return *c - *b;
+    return std::nullopt;
+}
+
+void CellShading::takePattern(const ConeRows& rows, std::size_t i, sdf::SurfaceHit& hit) const {
+    const sdf::SurfaceMaterial& material = scene_.materials[hit.material];
+    if (hit.color || material.pattern == sdf::SurfaceMaterial::Pattern::kNone) return;
+    const std::size_t x = i % rows.width(), y = i / rows.width(),
+                      height = static_cast<std::size_t>(rows.pixels.height());
+    const auto right = stepOf(rows, i, hit, x > 0 ? i - 1 : i, x + 1 < rows.width() ? i + 1 : i);
+    const auto down =
+        stepOf(rows, i, hit, y > 0 ? i - rows.width() : i, y + 1 < height ? i + rows.width() : i);
+    if (right && down) hit.color = patternOver(material, hit, *right, *down);
+}
+
+std::vector<glm::dvec4> blended(const ConeRows& rows, const std::vector<EdgeCell>& cells,
+                                const CellShades& shades, const glm::dvec4& background) {
+    const auto colorOf = [&](std::uint32_t shade) {
+        return shade == kNoGroup ? background : shades.colors[shade];
+    };
+    std::vector<glm::dvec4> colors(rows.cones.samples());
+    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = colorOf(shades.of_pixel[i]);
+    for (const EdgeCell& cell : cells) {
+        glm::dvec4 sum(0.0);
+        for (const CellPiece& piece : cell.pieces)
+            if (piece.weight > 0.0) sum += piece.weight * colorOf(piece.shade);
+        colors[cell.pixel] = sum;
+    }
+    return colors;
+}
+
+}  // namespace edgewise
