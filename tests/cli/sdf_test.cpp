@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -104,9 +105,11 @@ TEST(SdfCommand, CapsSolidsAtTheBox) {
     EXPECT_TRUE(record["closed"]);
     EXPECT_EQ(record["euler"], 2);
     // A slab and half a ball, whose chords lie within it: by a cell's sagitta all over it.
-    const double cell = record["cell"], slab = 2.0 * 0.6 * 2.2, half_ball = 2.0 / 3.0 * M_PI * 0.125;
+    const double cell = record["cell"], slab = 2.0 * 0.6 * 2.2,
+                 half_ball = 2.0 / 3.0 * glm::pi<double>() * 0.125;
     EXPECT_LE(record["volume"], slab + half_ball + 1e-12);
-    EXPECT_GE(record["volume"], slab + half_ball - 2.0 * M_PI * 0.25 * cell * cell / (8.0 * 0.5) * 2.0);
+    EXPECT_GE(record["volume"],
+              slab + half_ball - 2.0 * glm::pi<double>() * 0.25 * cell * cell / (8.0 * 0.5) * 2.0);
     for (const Arguments& more :
          {Arguments{}, Arguments{"--cap"}, Arguments{"--box", "-1,-0.6,-1,1,0.9,1.2"}}) {
         const ProgramRun refused = with(more);
