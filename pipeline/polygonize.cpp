@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "pipeline/cgal_mesher.h"
 #include "pipeline/error.h"
 #include "sdf/field_scene.h"
 #include "sdf/scene_error.h"
@@ -29,7 +30,9 @@ WorldBox boxOf(const Scene& scene) {
     const sdf::Box bounds = sdf::levelBox(field.tree, field.tree.root);
     if (bounds.empty()) throw InputError(scene.source, "holds no surface");
     if (!bounds.bounded())
-        throw InputError(scene.source, "its tree is unbounded, a mesh of it needs --box X0,Y0,Z0,X1,Y1,Z1");
+        throw InputError(scene.source,
+                         "its tree is unbounded, a mesh of it needs --box X0,Y0,Z0,X1,Y1,Z1, and --cap where "
+                         "it goes on beyond");
     WorldBox box;
     for (int axis = 0; axis < 3; ++axis) box.low[axis] = bounds.low[axis], box.high[axis] = bounds.high[axis];
     const glm::dvec3 size = box.high - box.low;
@@ -44,12 +47,14 @@ double cpuSeconds() {
 }
 
 /// A surface passes at least about one brick a square of a brick's face: what is refused could not fit.
+double machineBytes() {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
 void requireMemory(const sdf::Lattice& lattice) {
     const glm::dvec3 bricks(lattice.bricks());
     const double needed = kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
                           4.0 * bricks.x * bricks.y * bricks.z;
-    const double machine =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double machine = machineBytes();
     if (needed > machine)
         throw FailureError(
             "memory", fmt::format("a mesh of {}x{}x{} cells may need {:.0f} MiB, this machine has {:.0f}",
@@ -62,7 +67,20 @@ void requireMemory(const sdf::Lattice& lattice) {
 Mesher parseMesher(const std::string& name) {
     if (name == "dual") return Mesher::kDual;
     if (name == "marching-cubes") return Mesher::kMarchingCubes;
-    throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes", name));
+    if (name == "cgal") return Mesher::kCgal;
+    throw InputError("--mesher", fmt::format("'{}' is none of dual, marching-cubes, cgal", name));
+}
+
+Scene cappedAt(const Scene& scene, const WorldBox& box) {
+    sdf::FieldScene field = fieldOf(scene);
+    const glm::dvec3 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
+    const std::uint32_t solid = field.tree.root;
+    const std::uint32_t cap = field.tree.add(sdf::Kind::kBox, {size.x, size.y, size.z});
+    const std::uint32_t moved = field.tree.add(sdf::Kind::kTranslate, {middle.x, middle.y, middle.z}, {cap});
+    field.tree.root = field.tree.add(sdf::Kind::kIntersection, {}, {solid, moved});
+    Scene capped = scene;
+    capped.field = std::make_shared<sdf::FieldScene>(std::move(field));
+    return capped;
 }
 
 Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
@@ -75,9 +93,19 @@ Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
     const double cpu_start = cpuSeconds();
     try {
         const sdf::Tape tape = sdf::lower(field.tree);
-        const sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
-        result.mesh = options.mesher == Mesher::kDual ? sdf::dualContouring(request, result.counts)
-                                                      : sdf::marchingCubes(request, result.counts);
+        sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
+        request.most_off = options.most_off;
+        request.most_bricks = static_cast<std::size_t>(0.5 * machineBytes() / kBytesPerBrick);
+        switch (options.mesher) {
+            case Mesher::kDual:
+                result.mesh = sdf::dualContouring(request, result.counts);
+                break;
+            case Mesher::kMarchingCubes:
+                result.mesh = sdf::marchingCubes(request, result.counts);
+                break;
+            case Mesher::kCgal:
+                result.mesh = cgalMesh(request, scene.source, result.counts);
+        }
     } catch (const sdf::SceneError& error) {
         throw InputError(scene.source, error.what());
     }

@@ -10,7 +10,7 @@
 
 namespace edgewise {
 
-enum class Mesher { kMarchingCubes, kDual };
+enum class Mesher { kMarchingCubes, kDual, kCgal };
 /// Throws InputError naming those that there are.
 Mesher parseMesher(const std::string& name);
 
@@ -23,6 +23,8 @@ struct PolygonizeOptions {
     int resolution = 128;  ///< cells along the box's longest side
     std::optional<WorldBox>
         box;  ///< where the surface is looked for; none: the scene's bounds and a little more
+    std::optional<double>
+        most_off;  ///< how far mesh and surface may be apart; dual contouring divides for it
 };
 
 struct Polygonized {
@@ -31,6 +33,10 @@ struct Polygonized {
     sdf::MeshCounts counts;
     double seconds = 0.0, cpu_seconds = 0.0;
 };
+
+/// The scene's solid within the box alone, closed where the box cuts it; what it gets there has no material
+/// of its own. Throws InputError naming the scene: it is no SDF scene or raw GLSL.
+Scene cappedAt(const Scene& scene, const WorldBox& box);
 
 /// Throws InputError naming the scene: it is no SDF scene or raw GLSL, is unbounded and has no box, is empty,
 /// reaches the box's end; FailureError where the mesh would not fit into memory.

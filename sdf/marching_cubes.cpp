@@ -114,7 +114,7 @@ class MarchingCubes {
                                     n / (kBrickCells * kBrickCells));
             for (int axis = 0; axis < 3; ++axis)
                 if (const Crossing* c = crossings_.crossing(corner, axis)) {
-                    vertexAt(brick.first + corner, axis) =
+                    vertexAt(brick.first / kUnits + corner, axis) =
                         static_cast<std::uint32_t>(mesh_.position_world.size());
                     mesh_.position_world.push_back(c->place_world);
                 }
@@ -127,7 +127,7 @@ class MarchingCubes {
         for (int n = 0; n < kBrickCells * kBrickCells * kBrickCells; ++n) {
             const glm::ivec3 cell(n % kBrickCells, n / kBrickCells % kBrickCells,
                                   n / (kBrickCells * kBrickCells));
-            if (values_.crosses(cell)) takeCell(brick.first + cell, cell);
+            if (values_.crosses(cell)) takeCell(brick.first / kUnits + cell, cell);
         }
     }
 

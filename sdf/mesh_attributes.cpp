@@ -26,15 +26,7 @@ TapeAt::TapeAt(const Tape& whole, const Lattice& lattice, const BrickList& brick
     : whole_(whole), lattice_(lattice), bricks_(bricks) {}
 
 TapeView TapeAt::operator()(const glm::dvec3& p) const {
-    const glm::ivec3 count = lattice_.bricks();
-    std::size_t at = 0;
-    for (int axis = 2; axis >= 0; --axis) {
-        const double place = (p[axis] - lattice_.low_world[axis]) / (lattice_.step * kBrickCells);
-        const int index = static_cast<int>(std::floor(std::min(std::max(place, -1.0), 1e6)));
-        if (index < 0 || index >= count[axis]) return whole_;
-        at = at * count[axis] + index;
-    }
-    const std::uint32_t brick = bricks_.at[at];
+    const std::uint32_t brick = bricks_.leafAt(lattice_, lattice_.unitAt(p)).brick;
     return brick == kNoBrick ? TapeView(whole_) : bricks_.bricks[brick].tape;
 }
 

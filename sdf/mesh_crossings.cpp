@@ -62,7 +62,7 @@ void BrickCrossings::readValues(const Lattice& lattice, const Brick& brick) {
         for (int lane = 0; lane < kPointLanes; ++lane) {
             const int n = std::min(begin + lane, kCorners - 1);
             const glm::dvec3 p =
-                lattice.corner(brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide)));
+                lattice.corner(brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide))));
             for (int axis = 0; axis < 3; ++axis) points.axis[axis][lane] = p[axis];
         }
         laneValues(brick.tape, points, values);
@@ -85,7 +85,7 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
     const auto solve = [&] {
         for (int lane = 0; lane < kPointLanes; ++lane) {
             const Edge& e = edges[std::min(lane, waiting - 1)];
-            const glm::dvec3 p = lattice.corner(brick.first + e.corner);
+            const glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
             for (int axis = 0; axis < 3; ++axis) points.axis[axis][lane] = p[axis];
             if (lane >= waiting) {
                 roots.lane[lane].done = true;
@@ -93,9 +93,8 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
             }
             glm::ivec3 end = e.corner;
             ++end[e.axis];
-            roots.begin(roots.lane[lane], p[e.axis],
-                        lattice.coordinate(e.axis, brick.first[e.axis] + end[e.axis]), value(e.corner),
-                        value(end), lattice.step);
+            roots.begin(roots.lane[lane], p[e.axis], lattice.coordinate(e.axis, brick.unitsOf(end)[e.axis]),
+                        value(e.corner), value(end), lattice.step / (1 << brick.level));
         }
         double values[kPointLanes];
         for (int step = 0; step < kMostRootSteps; ++step) {
@@ -114,7 +113,7 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
         }
         for (int lane = 0; lane < waiting; ++lane) {
             const Edge& e = edges[lane];
-            glm::dvec3 p = lattice.corner(brick.first + e.corner);
+            glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
             p[e.axis] = roots.lane[lane].root;
             const glm::dvec3 gradient = gradientAt(brick.tape, p).gradient;
             const double length = glm::length(gradient);
@@ -143,9 +142,10 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
 
 bool BrickCrossings::open(const Lattice& lattice, const Brick& brick) const {
     for (int n = 0; n < kCorners; ++n) {
-        const glm::ivec3 at = brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
-        const bool end = at.x == 0 || at.y == 0 || at.z == 0 || at.x == lattice.cells.x ||
-                         at.y == lattice.cells.y || at.z == lattice.cells.z;
+        const glm::ivec3 at = brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide)));
+        const glm::ivec3 last = lattice.units();
+        const bool end =
+            at.x == 0 || at.y == 0 || at.z == 0 || at.x == last.x || at.y == last.y || at.z == last.z;
         if (end && values_[n] < 0.0) return true;
     }
     return false;

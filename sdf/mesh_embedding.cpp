@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
 namespace {
 
 using Points = std::span<const glm::dvec3>;
+
+/// One in so many: a tree of these few costs less than one of all.
+constexpr std::size_t kFew = 3;
 
 /// Side of d to the plane through a, b, c; 0 where rounding leaves it open: a determinant of differences errs
 /// by less than 1e-15 times the sum of its terms' sizes (Shewchuk 1997 has 7.8e-16).
@@ -121,6 +127,52 @@ bool meetBesideCorner(Points x, const Triangle& a, const Triangle& b) {
            pierces(x[b[1]], x[b[2]], x[a[0]], x[a[1]], x[a[2]]);
 }
 
+struct Box3 {
+    glm::dvec3 low, high;
+};
+Box3 boxOf(Points x, const Triangle& t) {
+    return {glm::min(x[t[0]], glm::min(x[t[1]], x[t[2]])), glm::max(x[t[0]], glm::max(x[t[1]], x[t[2]]))};
+}
+
+/// Which cubes of a grid some triangles' boxes are in: most others are nowhere near.
+class Marks {
+  public:
+    Marks(Points x, std::span<const Triangle> triangles, std::span<const std::uint32_t> some)
+        : marked_(kSide * kSide * kSide, false) {
+        Box3 all{glm::dvec3(1e300), glm::dvec3(-1e300)};
+        for (const std::uint32_t t : some) {
+            const Box3 box = boxOf(x, triangles[t]);
+            all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+        }
+        low_ = all.low, high_ = all.high;
+        scale_ = static_cast<double>(kSide) / glm::max(all.high - all.low, glm::dvec3(1e-300));
+        for (const std::uint32_t t : some)
+            anyOf(boxOf(x, triangles[t]), [&](std::size_t n) { return marked_[n] = true, false; });
+    }
+    bool near(const Box3& box) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (box.low[axis] > high_[axis] || box.high[axis] < low_[axis]) return false;
+        return anyOf(box, [&](std::size_t n) { return bool(marked_[n]); });
+    }
+
+  private:
+    static constexpr int kSide = 64;
+    template <class F>
+    bool anyOf(const Box3& box, const F& f) const {
+        const double most = kSide - 1;
+        const glm::ivec3 first(glm::clamp((box.low - low_) * scale_, 0.0, most)),
+            last(glm::clamp((box.high - low_) * scale_, 0.0, most));
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int i = first.x; i <= last.x; ++i)
+                    if (f(static_cast<std::size_t>(i + kSide * (y + kSide * z)))) return true;
+        return false;
+    }
+
+    glm::dvec3 low_, high_, scale_;
+    std::vector<bool> marked_;
+};
+
 }  // namespace
 
 bool trianglesMeet(Points x, const Triangle& a, const Triangle& b) {
@@ -146,57 +198,30 @@ bool trianglesMeet(Points x, const Triangle& a, const Triangle& b) {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(Points x,
                                                                   std::span<const Triangle> triangles,
-                                                                  const std::vector<bool>& doubtful,
-                                                                  double cell) {
-    struct Entry {
-        std::uint64_t key;
-        std::uint32_t triangle;
-    };
-    const auto cellOf = [&](const glm::dvec3& p) { return glm::ivec3(glm::floor(p / cell)); };
-    const auto keyOf = [](int i, int j, int k) {
-        constexpr std::uint64_t kMask = (1u << 21) - 1;
-        return (static_cast<std::uint64_t>(i) & kMask) << 42 | (static_cast<std::uint64_t>(j) & kMask) << 21 |
-               (static_cast<std::uint64_t>(k) & kMask);
-    };
-    const auto forCells = [&](const Triangle& t, const auto& f) {
-        const glm::ivec3 low = cellOf(glm::min(x[t[0]], glm::min(x[t[1]], x[t[2]])));
-        const glm::ivec3 high = cellOf(glm::max(x[t[0]], glm::max(x[t[1]], x[t[2]])));
-        for (int k = low.z; k <= high.z; ++k)
-            for (int j = low.y; j <= high.y; ++j)
-                for (int i = low.x; i <= high.x; ++i) f(keyOf(i, j, k));
-    };
-    std::vector<std::uint64_t> asked;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        if (doubtful[t]) forCells(triangles[t], [&](std::uint64_t key) { asked.push_back(key); });
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    std::vector<Entry> entries;
-    if (asked.empty()) return {};
-    // A bitmap first: most triangles are nowhere near.
-    constexpr std::size_t kBits = std::size_t(1) << 22;
-    const auto hashed = [](std::uint64_t key) { return (key * 0x9e3779b97f4a7c15ull) >> 42; };
-    std::vector<bool> seen(kBits, false);
-    for (const std::uint64_t key : asked) seen[hashed(key)] = true;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        forCells(triangles[t], [&](std::uint64_t key) {
-            if (seen[hashed(key)] && std::binary_search(asked.begin(), asked.end(), key))
-                entries.push_back({key, t});
-        });
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-        return a.key < b.key || (a.key == b.key && a.triangle < b.triangle);
-    });
+                                                                  const std::vector<bool>& doubtful) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::size_t begin = 0, end; begin < entries.size(); begin = end) {
-        for (end = begin; end < entries.size() && entries[end].key == entries[begin].key;) ++end;
-        for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t j = i + 1; j < end; ++j) {
-                const std::uint32_t a = entries[i].triangle, b = entries[j].triangle;
-                if ((doubtful[a] || doubtful[b]) && trianglesMeet(x, triangles[a], triangles[b]))
-                    pairs.push_back({a, b});
-            }
+    std::vector<std::uint32_t> asked;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (doubtful[t]) asked.push_back(t);
+    if (asked.empty()) return pairs;
+    const auto ask = [&](const TriangleTree& tree, std::uint32_t a) {
+        const Box3 box = boxOf(x, triangles[a]);
+        tree.forNear(box.low, box.high, [&](std::uint32_t b) {
+            if (b == a || (doubtful[a] && doubtful[b] && b < a)) return;
+            const auto [first, second] = std::minmax(a, b);
+            if (trianglesMeet(x, triangles[first], triangles[second])) pairs.push_back({first, second});
+        });
+    };
+    if (kFew * asked.size() > triangles.size()) {
+        const TriangleTree tree(x, triangles);
+        for (const std::uint32_t a : asked) ask(tree, a);
+    } else {
+        const Marks marks(x, triangles, asked);
+        const TriangleTree tree(x, triangles, std::move(asked));
+        for (std::uint32_t a = 0; a < triangles.size(); ++a)
+            if (marks.near(boxOf(x, triangles[a]))) ask(tree, a);
     }
     std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

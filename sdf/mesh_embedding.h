@@ -13,10 +13,9 @@ namespace edgewise::sdf {
 /// arithmetic says yes; yes too where rounding leaves it open.
 bool trianglesMeet(std::span<const glm::dvec3> positions, const Triangle& a, const Triangle& b);
 
-/// All such pairs of triangles of which one is doubtful. `cell`: about a triangle's size.
+/// All such pairs of triangles of which one is doubtful.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingPairs(std::span<const glm::dvec3> positions,
                                                                   std::span<const Triangle> triangles,
-                                                                  const std::vector<bool>& doubtful,
-                                                                  double cell);
+                                                                  const std::vector<bool>& doubtful);
 
 }  // namespace edgewise::sdf

@@ -10,10 +10,12 @@
 namespace edgewise::sdf {
 namespace {
 
-/// Of eigenvalues: normals of two sides that differ by 12 degrees have 0.011.
-constexpr double kCutoff = 0.01;
+/// Of eigenvalues: normals of two sides that differ by 5 degrees have 0.0019.
+constexpr double kCutoff = 0.002;
 constexpr int kRefinements = 3, kNewtonSteps = 4;
 constexpr double kNearer = 0.1;
+/// More than one cell's.
+constexpr std::size_t kManyPlanes = 12;
 /// Of a cell's side: planes meet exactly; a point is on the surface.
 constexpr double kMeet = 1e-10, kOnSurface = 1e-4;
 
@@ -27,6 +29,26 @@ TangentPlane tangentPlane(const TapeView& tape, glm::dvec3 p, const glm::dvec3& 
         p -= at.gradient * (at.value / slope2);
     }
     return {p, normal};
+}
+
+/// Two whose normals differ about as much as any do.
+std::array<std::size_t, 2> mostDifferent(std::span<const TangentPlane> planes) {
+    const auto farthestFrom = [&](std::size_t from) {
+        std::size_t farthest = 0;
+        for (std::size_t i = 1; i < planes.size(); ++i)
+            if (glm::dot(planes[i].normal, planes[from].normal) <
+                glm::dot(planes[farthest].normal, planes[from].normal))
+                farthest = i;
+        return farthest;
+    };
+    const std::size_t one = farthestFrom(0);
+    return {one, farthestFrom(one)};
+}
+
+/// Of two planes alone: their matrix's second eigenvalue is below the cutoff.
+bool areOne(const TangentPlane& a, const TangentPlane& b) {
+    const double cosine = std::abs(glm::dot(a.normal, b.normal));
+    return 1.0 - cosine <= kCutoff * (1.0 + cosine);
 }
 
 }  // namespace
@@ -59,9 +81,16 @@ FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> gi
             if (off > kOnSurface * step) return smooth();
             break;
         }
-        for (std::size_t i = 0; i < given.size(); ++i)
-            planes[i] =
-                tangentPlane(tape, found.place + kNearer * (planes[i].point - found.place), planes[i].normal);
+        const auto nearer = [&](std::size_t i) {
+            return tangentPlane(tape, found.place + kNearer * (planes[i].point - found.place),
+                                planes[i].normal);
+        };
+        if (n == 0 && given.size() > kManyPlanes) {
+            // Most are smooth: there, the two that differ most agree as they come nearer.
+            const auto [i, j] = mostDifferent(own);
+            if (areOne(nearer(i), nearer(j))) return smooth();
+        }
+        for (std::size_t i = 0; i < given.size(); ++i) planes[i] = nearer(i);
         found = nearestToPlanes(own, found.place, kCutoff);
     }
     return {found.place, found.rank};

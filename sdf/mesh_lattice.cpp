@@ -15,6 +15,12 @@ constexpr std::size_t kShort = 6;
 /// Of a cell: how far the lattice reaches beyond the box, by axis. No round numbers.
 constexpr double kBeyond[3] = {0.0314159265, 0.0271828183, 0.0141421356};
 
+/// Which part of its parent a brick of a level is that holds the place.
+int partOf(const glm::ivec3& unit, int level) {
+    const glm::ivec3 half = unit / (kBrickCells * (kUnits >> level));
+    return (half.x & 1) | (half.y & 1) << 1 | (half.z & 1) << 2;
+}
+
 class Octree {
   public:
     Octree(const Tape& tape, const Lattice& lattice, bool bound_holds, BrickList& found)
@@ -22,13 +28,50 @@ class Octree {
           lattice_(lattice),
           bound_holds_(bound_holds),
           found_(found),
-          bricks_(lattice.bricks()) {
-        found_.at.assign(static_cast<std::size_t>(bricks_.x) * bricks_.y * bricks_.z, kNoBrick);
-    }
+          bricks_(lattice.bricks()) {}
 
     void run() {
+        found_.at.assign(static_cast<std::size_t>(bricks_.x) * bricks_.y * bricks_.z, kNoBrick);
         const int longest = std::max({bricks_.x, bricks_.y, bricks_.z});
         visit({0, 0, 0}, static_cast<int>(std::bit_ceil(static_cast<unsigned>(longest))), tape_);
+    }
+
+    void divide(std::uint32_t index) {
+        const glm::ivec3 first = found_.bricks[index].first;
+        const int level = found_.bricks[index].level + 1, side = kBrickCells * (kUnits >> level);
+        const TapeView tape = found_.bricks[index].tape;
+        const double half = 0.5 * lattice_.step * side / kUnits;
+        std::array<glm::ivec3, kPointLanes> firsts;
+        LanePoints centres;
+        for (int part = 0; part < kPointLanes; ++part) {
+            firsts[part] = first + side * glm::ivec3(part & 1, part >> 1 & 1, part >> 2 & 1);
+            const glm::dvec3 centre = lattice_.corner(firsts[part]) + half;
+            for (int axis = 0; axis < 3; ++axis) centres.axis[axis][part] = centre[axis];
+        }
+        double values[kPointLanes];
+        laneValues(tape, centres, values);
+        PickLists shorter;
+        const bool shorten = bound_holds_ && tape.size() >= kShort;
+        if (shorten)
+            pruneEight(tape, tape_.positions, tape_.values, centres,
+                       (half + kBrickMargin * lattice_.step) * std::sqrt(3.0), shorter);
+        const auto parts = static_cast<std::uint32_t>(found_.parts.size());
+        std::uint32_t& entry = entryOf(first, level - 1);
+        entry = kDividedBit | parts;
+        found_.parts.emplace_back();
+        found_.bricks[index].divided = true;
+        for (int part = 0; part < kPointLanes; ++part) {
+            ++found_.nodes;
+            found_.parts[parts][part] = kNoBrick;
+            if (free(tape, lattice_.corner(firsts[part]) + half, half, values[part])) {
+                ++found_.pruned;
+                continue;
+            }
+            TapeView own = tape;
+            if (shorten && shorter.of(part).size() < tape.size())
+                own.picks = shorter.of(part).data(), own.count = shorter.of(part).size();
+            found_.parts[parts][part] = keep(firsts[part], level, own);
+        }
     }
 
   private:
@@ -42,9 +85,7 @@ class Octree {
     }
 
     /// The surface does not pass the node; or its value there, for the sign.
-    bool free(const TapeView& tape, const glm::ivec3& first, int size, double value) const {
-        const double half = halfOf(size);
-        const glm::dvec3 centre = centreOf(first, size);
+    bool free(const TapeView& tape, const glm::dvec3& centre, double half, double value) const {
         if (bound_holds_) {
             const double scale = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + half;
             return std::abs(value) >
@@ -83,7 +124,7 @@ class Octree {
         for (int part = 0; part < kPointLanes; ++part) {
             if (outside(firsts[part])) continue;
             ++found_.nodes;
-            if (free(tape, firsts[part], half_size, values[part])) {
+            if (free(tape, centreOf(firsts[part], half_size), halfOf(half_size), values[part])) {
                 ++found_.pruned;
                 found_.open |= !(values[part] > 0.0) && atTheEnd(firsts[part], half_size);
                 continue;
@@ -96,18 +137,32 @@ class Octree {
     }
 
     void add(const glm::ivec3& first, const TapeView& tape) {
+        const std::size_t at = first.x + static_cast<std::size_t>(bricks_.x) *
+                                             (first.y + static_cast<std::size_t>(bricks_.y) * first.z);
+        found_.at[at] = keep(first * kBrickCells * kUnits, 0, tape);
+    }
+
+    std::uint32_t keep(const glm::ivec3& first, int level, const TapeView& tape) {
         Brick brick;
-        brick.first = first * kBrickCells;
+        brick.first = first, brick.level = level;
         brick.tape = tape;
         if (tape.picks) {
             brick.picks = std::make_unique_for_overwrite<Pick[]>(tape.count);
             std::copy_n(tape.picks, tape.count, brick.picks.get());
             brick.tape.picks = brick.picks.get();
         }
-        const std::size_t at = first.x + static_cast<std::size_t>(bricks_.x) *
-                                             (first.y + static_cast<std::size_t>(bricks_.y) * first.z);
-        found_.at[at] = static_cast<std::uint32_t>(found_.bricks.size());
         found_.bricks.push_back(std::move(brick));
+        return static_cast<std::uint32_t>(found_.bricks.size() - 1);
+    }
+
+    /// Where a brick is written down.
+    std::uint32_t& entryOf(const glm::ivec3& first, int level) {
+        const glm::ivec3 brick = first / (kBrickCells * kUnits);
+        std::uint32_t* entry =
+            &found_.at[brick.x + static_cast<std::size_t>(bricks_.x) *
+                                     (brick.y + static_cast<std::size_t>(bricks_.y) * brick.z)];
+        for (int n = 1; n <= level; ++n) entry = &found_.parts[*entry & ~kDividedBit][partOf(first, n)];
+        return *entry;
     }
 
     const Tape& tape_;
@@ -132,6 +187,26 @@ Lattice latticeOf(const glm::dvec3& low, const glm::dvec3& high, int resolution)
             low[axis] - (kBeyond[axis] + 0.5 * std::max(0.0, lattice.cells[axis] - needed)) * lattice.step;
     }
     return lattice;
+}
+
+BrickList::Leaf BrickList::leafAt(const Lattice& lattice, const glm::ivec3& unit) const {
+    const glm::ivec3 count = lattice.bricks();
+    for (int axis = 0; axis < 3; ++axis)
+        if (unit[axis] < 0 || unit[axis] >= count[axis] * kBrickCells * kUnits) return {kNoBrick, 0};
+    const glm::ivec3 brick = unit / (kBrickCells * kUnits);
+    std::uint32_t entry = at[brick.x + static_cast<std::size_t>(count.x) *
+                                           (brick.y + static_cast<std::size_t>(count.y) * brick.z)];
+    int level = 0;
+    while (entry != kNoBrick && (entry & kDividedBit)) {
+        ++level;
+        entry = parts[entry & ~kDividedBit][partOf(unit, level)];
+    }
+    return {entry, level};
+}
+
+void divideBrick(const Tape& tape, const Lattice& lattice, bool bound_holds, std::uint32_t brick,
+                 BrickList& list) {
+    Octree(tape, lattice, bound_holds, list).divide(brick);
 }
 
 BrickList findBricks(const Tape& tape, const Lattice& lattice, bool bound_holds) {

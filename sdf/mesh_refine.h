@@ -2,20 +2,16 @@
 #pragma once
 
 #include "sdf/mesh_attributes.h"
+#include "sdf/mesh_limits.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise::sdf {
-
-/// Lengths in the world: by how much edges' middles may be off the surface.
-struct RefineLimits {
-    double sharp;   ///< by a sharp edge
-    double smooth;  ///< elsewhere
-};
 
 /// Divides edges whose middles are further off than the limits; the new vertex is put on the surface, on its
 /// sharp edge where it has one there. Where triangles would come to meet it stays at the edge's middle: the
 /// mesh goes through itself no more than before. Gives how many were added. Of materials and normals none are
 /// kept.
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const RefineLimits& limits);
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
+                       const MeshLimits& limits);
 
 }  // namespace edgewise::sdf

@@ -4,8 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <numeric>
+#include <optional>
+#include <tuple>
 
+#include "sdf/evaluate.h"
 #include "sdf/mesh_embedding.h"
+#include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
 namespace {
@@ -18,14 +23,29 @@ constexpr double kLeastShape = 0.02;
 constexpr double kLeastOwnShape = 1e-4;
 /// Cosine between normals of triangles in one plane, on the same side of it.
 constexpr double kSamePlane = 1.0 - 1e-9;
-constexpr int kPasses = 12, kAttempts = 6;
+constexpr int kPasses = 12, kAttempts = 8;
+/// Of a triangle's size: how far around it vertices are kept where it met another, at first.
+constexpr double kAround = 0.5;
+/// Of curved parts.
+constexpr double kLeastNearShape = 0.2;
+constexpr std::size_t kMostWays = 3;
+/// Cosines: by how much a triangle may turn; up to which angle what is around a vertex is smooth.
+constexpr double kLeastTurn = 0.8, kSmooth = 0.9;
 constexpr std::uint32_t kGone = 0xffffffffu;
+
+struct NearSurface {
+    const TapeAt& tape;
+    MeshLimits limits;
+};
 
 class Simplifier {
   public:
-    Simplifier(SurfaceMesh& mesh, double step, const std::vector<bool>& kept)
+    /// `near`: off planes by a little, but the surface's own; none: flat parts alone.
+    Simplifier(SurfaceMesh& mesh, double step, const std::vector<bool>& kept,
+               const NearSurface* near = nullptr)
         : mesh_(mesh),
           kept_(kept),
+          near_(near),
           flat_(kFlat * step),
           around_(mesh.position_world.size()),
           asked_(around_.size(), true),
@@ -77,6 +97,7 @@ class Simplifier {
                 if (w != v && std::find(neighbours_.begin(), neighbours_.end(), w) == neighbours_.end())
                     neighbours_.push_back(w);
         }
+        if (near_) return collapseNear(v);
         double best = kLeastShape;
         std::uint32_t into = kGone;
         for (const std::uint32_t u : neighbours_) {
@@ -86,6 +107,59 @@ class Simplifier {
         if (into == kGone) return false;
         draw(v, into);
         return true;
+    }
+
+    /// As long as the surface stays near, and what was there too: first into the neighbours that leave the
+    /// best shapes.
+    bool collapseNear(std::uint32_t v) {
+        std::vector<std::pair<double, std::uint32_t>> ways;
+        for (const std::uint32_t u : neighbours_)
+            if (const double shape = shapeNear(v, u); shape > kLeastNearShape) ways.push_back({-shape, u});
+        std::sort(ways.begin(), ways.end());
+        if (ways.size() > kMostWays) ways.resize(kMostWays);
+        for (const auto& [shape, u] : ways)
+            if (linked(v, u) && staysNear(v, u)) return draw(v, u), true;
+        return false;
+    }
+    double shapeNear(std::uint32_t v, std::uint32_t u) const {
+        double worst = 1.0;
+        for (std::size_t n = 0; n < around_[v].size() && worst > kLeastNearShape; ++n) {
+            Triangle t = mesh_.triangles[around_[v][n]];
+            if (holds(t, u)) continue;
+            std::replace(t.begin(), t.end(), v, u);
+            const glm::dvec3 normal = normalOf(t);
+            const double area = glm::length(normal);
+            if (!(glm::dot(normal, normals_[n]) > kLeastTurn * area)) return 0.0;
+            worst = std::min(worst, area / longest2(t));
+        }
+        return worst;
+    }
+    bool staysNear(std::uint32_t v, std::uint32_t u) const {
+        double bent = 1.0;
+        for (const glm::dvec3& normal : normals_) bent = std::min(bent, glm::dot(normal, normals_[0]));
+        const double limit = bent > kSmooth ? near_->limits.smooth : near_->limits.sharp;
+        fan_.clear();
+        for (const std::uint32_t n : around_[v]) {
+            Triangle t = mesh_.triangles[n];
+            if (holds(t, u)) continue;
+            std::replace(t.begin(), t.end(), v, u);
+            fan_.push_back(t);
+            if (isOff((at(t[0]) + at(t[1]) + at(t[2])) / 3.0, limit)) return false;
+        }
+        for (const std::uint32_t w : neighbours_)
+            if (w != u && isOff(0.5 * (at(u) + at(w)), limit)) return false;
+        if (isLeft(at(v), limit)) return false;
+        return std::none_of(neighbours_.begin(), neighbours_.end(),
+                            [&](std::uint32_t w) { return isLeft(0.5 * (at(v) + at(w)), limit); });
+    }
+    bool isOff(const glm::dvec3& p, double limit) const {
+        return std::abs(valueAt(near_->tape(p), p)) > limit;
+    }
+    /// The new triangles are further away from what was there.
+    bool isLeft(const glm::dvec3& p, double limit) const {
+        return std::none_of(fan_.begin(), fan_.end(), [&](const Triangle& t) {
+            return squaredDistance(p, at(t[0]), at(t[1]), at(t[2])) <= limit * limit;
+        });
     }
 
     double longest2(const Triangle& t) const {
@@ -173,43 +247,77 @@ class Simplifier {
 
     SurfaceMesh& mesh_;
     const std::vector<bool>& kept_;
+    const NearSurface* near_;
     const double flat_;
+    mutable std::vector<Triangle> fan_;
     std::vector<std::vector<std::uint32_t>> around_;
     std::vector<bool> asked_, changed_;
     std::vector<glm::dvec3> normals_;
     std::vector<std::uint32_t> neighbours_;
 };
 
-/// Keeps the vertices of `whole` around a triangle of `mesh`.
-void keepAround(const SurfaceMesh& mesh, const Triangle& t, const SurfaceMesh& whole, double step,
+/// Vertices in the order of their first coordinates.
+class VertexOrder {
+  public:
+    explicit VertexOrder(const std::vector<glm::dvec3>& x) : x_(x), order_(x.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tie(x_[a].x, a) < std::tie(x_[b].x, b);
+        });
+    }
+    /// Those within a box.
+    template <class F>
+    void forWithin(const glm::dvec3& low, const glm::dvec3& high, const F& f) const {
+        auto at = std::partition_point(order_.begin(), order_.end(),
+                                       [&](std::uint32_t v) { return x_[v].x <= low.x; });
+        for (; at != order_.end() && x_[*at].x < high.x; ++at)
+            if (glm::all(glm::lessThan(low, x_[*at])) && glm::all(glm::lessThan(x_[*at], high))) f(*at);
+    }
+
+  private:
+    const std::vector<glm::dvec3>& x_;
+    std::vector<std::uint32_t> order_;
+};
+
+/// Keeps the whole mesh's vertices around a triangle of `mesh`, `around` of its size away too.
+void keepAround(const SurfaceMesh& mesh, const Triangle& t, const VertexOrder& whole, double around,
                 std::vector<bool>& kept) {
     const auto &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]], &c = mesh.position_world[t[2]];
-    const glm::dvec3 low = glm::min(a, glm::min(b, c)) - step, high = glm::max(a, glm::max(b, c)) + step;
-    for (std::size_t v = 0; v < whole.position_world.size(); ++v) {
-        const glm::dvec3& p = whole.position_world[v];
-        kept[v] = kept[v] || (glm::all(glm::lessThan(low, p)) && glm::all(glm::lessThan(p, high)));
-    }
+    const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c)), size = high - low;
+    const double margin = around * std::max({size.x, size.y, size.z});
+    whole.forWithin(low - margin, high + margin, [&](std::uint32_t v) { kept[v] = true; });
 }
 
-}  // namespace
-
-std::size_t leaveOutFlat(SurfaceMesh& mesh, double step) {
+std::size_t simplify(SurfaceMesh& mesh, double step, const NearSurface* near) {
     const SurfaceMesh whole = mesh;
     std::vector<bool> kept(whole.position_world.size(), false);
+    std::optional<VertexOrder> order;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        Simplifier simplifier(mesh, step, kept);
+        Simplifier simplifier(mesh, step, kept, near);
         const std::size_t gone = simplifier.run();
-        const auto pairs =
-            meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed(), 1.5 * step);
+        const auto pairs = meetingPairs(mesh.position_world, mesh.triangles, simplifier.changed());
         if (pairs.empty()) return gone;
         std::vector<std::uint32_t> around;
         for (const auto& [a, b] : pairs) around.push_back(a), around.push_back(b);
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
-        for (const std::uint32_t t : around) keepAround(mesh, mesh.triangles[t], whole, step, kept);
+        if (!order) order.emplace(whole.position_world);
+        for (const std::uint32_t t : around)
+            keepAround(mesh, mesh.triangles[t], *order, kAround * (attempt + 1) * (attempt + 1), kept);
         mesh = whole;
     }
     return 0;
+}
+
+}  // namespace
+
+std::size_t leaveOutFlat(SurfaceMesh& mesh, double step) {
+    return simplify(mesh, step, nullptr);
+}
+
+std::size_t thinOut(SurfaceMesh& mesh, const TapeAt& tape, double step, const MeshLimits& limits) {
+    const NearSurface near{tape, limits};
+    return simplify(mesh, step, &near);
 }
 
 }  // namespace edgewise::sdf

@@ -1,6 +1,8 @@
 // Meshes of the surface where a tape's value is 0.
 #pragma once
 
+#include <optional>
+
 #include "sdf/mesh_lattice.h"
 #include "sdf/surface_mesh.h"
 
@@ -12,6 +14,10 @@ struct MeshRequest {
     /// Values change no faster than the tape says (check_lipschitz); false: intervals find the surface.
     bool bound_holds = true;
     bool attributes = true;  ///< normals too
+    /// Dual contouring: how far mesh and surface may be apart, in world units, as far as cells can be divided
+    /// for it; none: a small part of a cell.
+    std::optional<double> most_off = {};
+    std::size_t most_bricks = std::size_t(1) << 20;  ///< cells are divided no further when there are more
 };
 
 struct MeshCounts {

@@ -24,11 +24,14 @@ namespace edgewise::cli {
 namespace {
 
 constexpr int kLinesPerCell = 4;
+/// With --max-error: cells at first, tries, and of the error what a next try asks for, of the one before.
+constexpr int kFirstResolution = 64, kTries = 4;
+constexpr double kLess = 0.7;
 
 struct PolygonizeArguments {
     std::string scene, output, mesher = "dual", command_line;
-    std::optional<std::string> resolution, box, stats;
-    bool no_check = false, quiet = false;
+    std::optional<std::string> resolution, max_error, box, stats;
+    bool cap = false, no_check = false, quiet = false;
 };
 
 WorldBox parseBox(const std::string& text) {
@@ -49,17 +52,49 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
     if (arguments.resolution)
         options.resolution =
             static_cast<int>(parseInteger("--resolution", *arguments.resolution, 4, sdf::kMostResolution));
+    if (arguments.max_error) {
+        options.most_off = parseNumber("--max-error", *arguments.max_error);
+        if (!(*options.most_off > 0.0))
+            throw InputError("--max-error", fmt::format("'{}' is not above 0", *arguments.max_error));
+        if (!arguments.resolution) options.resolution = kFirstResolution;
+    }
     if (arguments.box) options.box = parseBox(*arguments.box);
+    if (arguments.cap && !arguments.box) throw InputError("--cap", "it needs --box X0,Y0,Z0,X1,Y1,Z1");
     return options;
 }
 
-nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check) {
-    MeshQuality quality = qualityOf(made.mesh);
-    if (check) {
-        quality.self_intersections = selfIntersections(made.mesh);
-        quality.distance = distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice,
-                                      scene.field->bound_holds, kLinesPerCell);
+std::optional<MeshDistance> measure(const Polygonized& made, const Scene& scene) {
+    return distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice, scene.field->bound_holds,
+                      kLinesPerCell);
+}
+
+/// Asks for less each time, with smaller cells at last, until what is measured is within the error.
+Polygonized polygonizeWithin(double max_error, const Scene& scene, PolygonizeOptions options,
+                             std::optional<MeshDistance>& distance) {
+    for (int n = 1;; ++n) {
+        Polygonized made = polygonize(scene, options);
+        throwIfInterrupted();
+        distance = measure(made, scene);
+        if (!distance) throw FailureError("--max-error", "this build has no CGAL to measure it with");
+        const double worst = std::max(distance->mesh_to_surface, distance->surface_to_mesh);
+        if (worst <= max_error) return made;
+        if (n == kTries || options.resolution > sdf::kMostResolution / 2)
+            throw FailureError(
+                "--max-error",
+                fmt::format("{} is not met: {} from mesh to surface, {} back (near {},{},{}), with cells of "
+                            "{} divided {} times at most",
+                            max_error, distance->mesh_to_surface, distance->surface_to_mesh,
+                            distance->worst_on_surface.x, distance->worst_on_surface.y,
+                            distance->worst_on_surface.z, made.lattice.step, sdf::kMostLevels));
+        options.most_off = *options.most_off * kLess;
+        if (n > 1 || options.mesher != Mesher::kDual) options.resolution *= 2;
     }
+}
+
+nlohmann::json recordOf(const Polygonized& made, const std::optional<MeshDistance>& distance, bool check) {
+    MeshQuality quality = qualityOf(made.mesh);
+    if (check) quality.self_intersections = selfIntersections(made.mesh);
+    quality.distance = distance;
     nlohmann::json record = jsonOf(quality);
     record["seconds"] = made.seconds;
     record["cpu_seconds"] = made.cpu_seconds;
@@ -76,14 +111,24 @@ nlohmann::json recordOf(const Polygonized& made, const Scene& scene, bool check)
 void polygonizeScene(const PolygonizeArguments& arguments) {
     checkOutputPath(arguments.output);
     if (arguments.stats) checkOutputPath(*arguments.stats);
-    const PolygonizeOptions options = optionsOf(arguments);
+    PolygonizeOptions options = optionsOf(arguments);
     Scene scene = loadScene(findScene(arguments.scene));
     scene.source = arguments.scene;
     warnOfIgnored(scene);
-    const Polygonized made = polygonize(scene, options);
+    if (scene.field && !scene.field->analytic.empty())
+        spdlog::warn("{}: {} analytic shapes beside the tree are not in the mesh", scene.source,
+                     scene.field->analytic.size());
+    if (arguments.cap) {
+        scene = cappedAt(scene, *options.box);
+        options.box.reset();  // of what is left, the cap is the bounds
+    }
+    std::optional<MeshDistance> distance;
+    const Polygonized made = options.most_off ? polygonizeWithin(*options.most_off, scene, options, distance)
+                                              : polygonize(scene, options);
     throwIfInterrupted();
+    if (!arguments.no_check && !distance) distance = measure(made, scene);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
-    const nlohmann::json record = recordOf(made, scene, !arguments.no_check);
+    const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
     if (!arguments.quiet) fmt::print("{}\n", record.dump(1));
 }
@@ -99,15 +144,23 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
     command->add_option("-o,--output", arguments->output, "positions in float32")
         ->type_name("MESH.glb")
         ->required();
-    command->add_option("--mesher", arguments->mesher, "dual: sharp edges kept; marching-cubes")
+    command
+        ->add_option("--mesher", arguments->mesher,
+                     "dual: sharp edges kept; marching-cubes; cgal: smooth surfaces alone")
         ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--resolution", arguments->resolution, "cells along the box's longest side [128]")
         ->type_name("N");
     command
+        ->add_option("--max-error", arguments->max_error,
+                     "cells are divided until mesh and surface are nowhere found further apart; --resolution "
+                     "is where it begins [64]")
+        ->type_name("E");
+    command
         ->add_option("--box", arguments->box,
                      "where the surface is looked for [the scene's bounds and a little more]")
         ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+    command->add_flag("--cap", arguments->cap, "the solid ends at the box, closed there");
     command->add_option("--stats", arguments->stats, "the mesh's quality, times and counts")
         ->type_name("FILE.json");
     command->add_flag("--no-check", arguments->no_check, "self-intersections and distances are not measured");

@@ -88,9 +88,8 @@ class SurfaceToMesh {
     void brick(const sdf::Brick& brick) {
         constexpr int kSide = sdf::kBrickCells;
         for (int n = 0; n < kSide * kSide * kSide; ++n) {
-            const glm::ivec3 cell =
-                brick.first + glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide));
-            const glm::dvec3 low = lattice_.corner(cell);
+            const glm::dvec3 low =
+                lattice_.corner(brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide))));
             const double value = sdf::valueAt(brick.tape, low + 0.5 * lattice_.step);
             if (std::abs(value) > 1.75 * lattice_.step * slope_) continue;
             for (int line = 0; line < per_cell_; ++line) ask(brick.tape, low);

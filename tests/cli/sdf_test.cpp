@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -52,6 +53,68 @@ TEST(SdfCommand, PolygonizesIntoAGltfWithItsRecord) {
         EXPECT_EQ(refused.status, 2) << more.back();
         EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
         EXPECT_FALSE(fs::exists(folder / "wrong.glb"));
+    }
+}
+
+TEST(SdfCommand, PolygonizesWithinAnErrorOrSaysThatItIsNotMet) {
+    const TemporaryFolder folder;
+    std::size_t before = 0;
+    for (const std::string error : {"0.02", "0.002"}) {
+        const ProgramRun run = inFolder(folder, {"polygonize", "ball.sdf.json", "-o", "ball.glb",
+                                                 "--resolution", "16", "--max-error", error});
+        if (run.status == 1 && run.err.find("no CGAL") != std::string::npos) GTEST_SKIP() << run.err;
+        ASSERT_EQ(run.status, 0) << run.err;
+        const json record = json::parse(run.out);
+        EXPECT_LE(record["distance"]["mesh_to_surface"], std::stod(error));
+        EXPECT_LE(record["distance"]["surface_to_mesh"], std::stod(error));
+        EXPECT_TRUE(record["closed"]);
+        EXPECT_EQ(record["self_intersections"], 0);
+        EXPECT_GT(record["triangles"], before);
+        before = record["triangles"];
+    }
+    // Rounding alone is more than that, however small cells are: positions about 1.
+    const ProgramRun refused =
+        inFolder(folder, {"polygonize", "ball.sdf.json", "-o", "wrong.glb", "--mesher", "marching-cubes",
+                          "--resolution", "8", "--max-error", "1e-18"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("--max-error: 1e-18 is not met"), std::string::npos) << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "wrong.glb"));
+    for (const std::string wrong : {"0", "-1", "nan", "small"}) {
+        const ProgramRun run =
+            inFolder(folder, {"polygonize", "ball.sdf.json", "-o", "wrong.glb", "--max-error", wrong});
+        EXPECT_EQ(run.status, 2) << wrong;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+}
+
+TEST(SdfCommand, CapsSolidsAtTheBox) {
+    const TemporaryFolder folder;
+    writeFile(folder / "ground.sdf.json", R"({"cameras": [{"eye": [0, 3, 10], "target": [0, 0, 0]}],
+ "tree": {"type": "union", "children": [{"type": "plane", "normal": [0, 1, 0], "offset": 0},
+                                        {"type": "sphere", "radius": 0.5}]}})");
+    const Arguments command{"polygonize", "ground.sdf.json", "-o", "ground.glb", "--resolution", "24"};
+    const auto with = [&](const Arguments& more) {
+        Arguments arguments = command;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runProgram(arguments, folder.path());
+    };
+    const ProgramRun run = with({"--cap", "--box", "-1,-0.6,-1,1,0.9,1.2"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json record = json::parse(run.out);
+    EXPECT_TRUE(record["closed"]);
+    EXPECT_EQ(record["euler"], 2);
+    // A slab and half a ball, whose chords lie within it: by a cell's sagitta all over it.
+    const double cell = record["cell"], slab = 2.0 * 0.6 * 2.2,
+                 half_ball = 2.0 / 3.0 * glm::pi<double>() * 0.125;
+    EXPECT_LE(record["volume"], slab + half_ball + 1e-12);
+    EXPECT_GE(record["volume"],
+              slab + half_ball - 2.0 * glm::pi<double>() * 0.25 * cell * cell / (8.0 * 0.5) * 2.0);
+    for (const Arguments& more :
+         {Arguments{}, Arguments{"--cap"}, Arguments{"--box", "-1,-0.6,-1,1,0.9,1.2"}}) {
+        const ProgramRun refused = with(more);
+        EXPECT_EQ(refused.status, 2);
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
     }
 }
 

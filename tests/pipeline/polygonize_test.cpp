@@ -16,6 +16,7 @@
 #include "sdf/field_scene.h"
 #include "sdf/mesh_embedding.h"
 #include "sdf/mesh_qef.h"
+#include "sdf/triangle_tree.h"
 
 namespace edgewise {
 namespace {
@@ -233,6 +234,159 @@ TEST(Polygonize, RefusesInOneLine) {
     none.source = "mesh.glb";
     EXPECT_THROW(polygonize(none, {}), InputError);
     EXPECT_THROW(parseMesher("best"), InputError);
+}
+
+/// Bricks divided here and there, up to three times: every cell size beside every other.
+TEST(Polygonize, CellsOfManySizesMeetWithoutSeams) {
+    std::uint64_t seed = 20, mixed = 0, triangles = 0;
+    for (const sdf::Tree& tree : {ballMinusBox(), gyroidShell(), blobs(4)}) {
+        const sdf::Tape tape = sdf::lower(tree);
+        const sdf::Lattice lattice = sdf::latticeOf(glm::dvec3(-1.3), glm::dvec3(1.3), 20);
+        std::mt19937_64 random(++seed);
+        sdf::BrickList bricks = sdf::findBricks(tape, lattice, true);
+        for (int round = 0; round < 3; ++round)
+            for (std::uint32_t b = 0, count = std::uint32_t(bricks.bricks.size()); b < count; ++b)
+                if (!bricks.bricks[b].divided && random() % 4 == 0)
+                    sdf::divideBrick(tape, lattice, true, b, bricks);
+        const sdf::DualComplex complex = sdf::dualComplex({tape, lattice}, std::move(bricks));
+        // Polygons as they are, closed: each side is another's, the other way round.
+        for (std::uint32_t p = 0; p < complex.polygons.size(); ++p) {
+            const sdf::DualPolygon& polygon = complex.polygons[p];
+            int sides = 0;
+            for (int k = 0; k < 4; ++k) {
+                if (!polygon.isSide(k)) continue;
+                ++sides;
+                const sdf::DualPolygon& other = complex.polygons.at(polygon.across[k]);
+                const int j = polygon.across_side[k];
+                EXPECT_EQ(other.across[j], p);
+                EXPECT_EQ(std::minmax(polygon.vertex[k], polygon.vertex[(k + 1) % 4]),
+                          std::minmax(other.vertex[j], other.vertex[(j + 1) % 4]));
+            }
+            EXPECT_GE(sides, 3);
+            mixed += polygon.mixed, triangles += sides == 3;
+        }
+    }
+    EXPECT_GT(mixed, 500u);
+    EXPECT_GT(triangles, 50u);
+}
+
+TEST(Polygonize, DividesCellsUntilTheErrorIsMet) {
+    const sdf::Tree cut = ballMinusBox();
+    PolygonizeOptions options;
+    options.resolution = 24;
+    std::size_t before = 0;
+    for (const double error : {0.03, 0.01}) {
+        options.most_off = error;
+        const Polygonized made = polygonize(sceneOf(cut), options);
+        expectClean(made, "within " + std::to_string(error));
+        const MeshDistance distance = farthest(made, cut);
+        EXPECT_LE(distance.surface_to_mesh, error);
+        EXPECT_LE(distance.mesh_to_surface, error);
+        EXPECT_GT(made.mesh.triangles.size(), before);
+        before = made.mesh.triangles.size();
+    }
+    // What cells miss whole is found: a plate thinner than a quarter of one.
+    const sdf::Tree plate = shape(Kind::kBox, {1.0, 0.01, 0.9});
+    options.most_off = 0.01;
+    const Polygonized thin = polygonize(sceneOf(plate), options);
+    expectClean(thin, "plate");
+    EXPECT_NEAR(qualityOf(thin.mesh).volume, 0.009, 1e-6);
+}
+
+TEST(Polygonize, RoundPartsHaveNoMoreTrianglesThanTheyNeed) {
+    const Polygonized fine = meshOf(shape(Kind::kSphere, {1.0}), Mesher::kDual, 64);
+    expectClean(fine, "ball");
+    EXPECT_GT(fine.counts.collapsed, 1000u);
+    // Nearer than an eightieth of a cell at edges' middles and centres: nowhere further off than twice that.
+    const MeshDistance distance = farthest(fine, shape(Kind::kSphere, {1.0}));
+    EXPECT_LE(distance.surface_to_mesh, 2.0 * fine.lattice.step / 64.0);
+}
+
+TEST(Polygonize, CgalMeshesSmoothSurfacesAndRefusesSharpOnes) {
+    const sdf::Tree ball = shape(Kind::kSphere, {1.0});
+    PolygonizeOptions options;
+    options.mesher = Mesher::kCgal;
+    options.resolution = 20;
+    const std::string sharp = problemOf(ballMinusBox(), options);
+    if (sharp.find("no CGAL") != std::string::npos) GTEST_SKIP() << sharp;
+    EXPECT_NE(sharp.find("sharp edge"), std::string::npos) << sharp;
+    const Polygonized made = polygonize(sceneOf(ball), options);
+    expectClean(made, "cgal's ball");
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_EQ(quality.euler, 2);
+    EXPECT_GT(quality.smallest_angle_degrees, 29.9);
+    // Asked of it: circles' centres are within a tenth of a cell of the surface.
+    const MeshDistance distance = farthest(made, ball);
+    EXPECT_LE(distance.mesh_to_surface, 0.1 * made.lattice.step);
+    // Parts that do not touch have seeds of their own.
+    sdf::Tree two;
+    const auto small = two.add(Kind::kSphere, {0.4}, {}, 0), large = two.add(Kind::kSphere, {0.7}, {}, 0);
+    const auto moved = two.add(Kind::kTranslate, {1.5, 0.2, 0.0}, {small});
+    two.root = two.add(Kind::kUnion, {}, {large, moved});
+    EXPECT_EQ(qualityOf(polygonize(sceneOf(two), options).mesh).components, 2u);
+}
+
+TEST(TriangleTree, FindsWhatIsNear) {
+    std::mt19937_64 random(31);
+    std::uniform_real_distribution<double> at(-1.0, 1.0), size(-0.1, 0.1);
+    std::vector<glm::dvec3> x;
+    std::vector<sdf::Triangle> triangles;
+    for (std::uint32_t n = 0; n < 300; ++n) {
+        const glm::dvec3 p(at(random), at(random), at(random));
+        for (int i = 0; i < 3; ++i) x.push_back(p + glm::dvec3(size(random), size(random), size(random)));
+        triangles.push_back({3 * n, 3 * n + 1, 3 * n + 2});
+    }
+    const sdf::TriangleTree tree(x, triangles);
+    int near = 0, far = 0;
+    for (int n = 0; n < 400; ++n) {
+        const glm::dvec3 p(at(random), at(random), at(random));
+        // The triangle's own points, closely sampled, say the same but for the samples' distance.
+        double nearest = 1e300;
+        for (const sdf::Triangle& t : triangles)
+            for (int i = 0; i <= 20; ++i)
+                for (int j = 0; i + j <= 20; ++j)
+                    nearest = std::min(nearest, glm::distance(p, x[t[0]] + (x[t[1]] - x[t[0]]) * (i / 20.0) +
+                                                                     (x[t[2]] - x[t[0]]) * (j / 20.0)));
+        const double spacing = 0.2 * std::sqrt(3.0) / 20.0;
+        EXPECT_TRUE(tree.near(p, nearest * (1.0 + 1e-12))) << n;  // rounding of the samples
+        if (nearest > spacing) {
+            EXPECT_FALSE(tree.near(p, nearest - spacing)) << n;
+        }
+        (nearest < 0.1 ? near : far) += 1;
+    }
+    EXPECT_GT(near, 50);
+    EXPECT_GT(far, 50);
+}
+
+TEST(Polygonize, UnboundedSolidsEndAtTheCap) {
+    sdf::Tree tree;
+    const auto ground = tree.add(Kind::kPlane, {0.0, 1.0, 0.0, 0.0}, {}, 0);
+    const auto ball = tree.add(Kind::kSphere, {0.5}, {}, 0);
+    const auto raised = tree.add(Kind::kTranslate, {0.1, 0.0, -0.2}, {ball});
+    tree.root = tree.add(Kind::kUnion, {}, {ground, raised});
+    const Scene capped = cappedAt(sceneOf(tree), {{-1.0, -0.5, -1.2}, {1.1, 1.0, 1.0}});
+    PolygonizeOptions options;
+    options.resolution = 40;
+    const Polygonized made = polygonize(capped, options);
+    expectClean(made, "ground and half a ball");
+    const MeshQuality quality = qualityOf(made.mesh);
+    EXPECT_EQ(quality.euler, 2);
+    // A slab, half a ball on it: chords of the ball lie within it, by a cell's sagitta all over it.
+    const double slab = 2.1 * 0.5 * 2.2, half_ball = 2.0 / 3.0 * glm::pi<double>() * 0.125;
+    const double sagitta = made.lattice.step * made.lattice.step / (8.0 * 0.5) * 2.0;
+    EXPECT_LE(quality.volume, slab + half_ball);
+    EXPECT_GE(quality.volume, slab + half_ball - 2.0 * glm::pi<double>() * 0.25 * sagitta);
+    std::size_t walls = 0, own = 0;
+    for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
+        const glm::dvec3& p = made.mesh.position_world[made.mesh.triangles[t][0]];
+        const bool bare = made.mesh.material[t] == sdf::kNoMaterial;
+        (bare ? walls : own) += 1;
+        if (bare) {
+            EXPECT_LT(p.y, 1e-9);
+        }
+    }
+    EXPECT_GT(walls, 9u);
+    EXPECT_GT(own, 100u);
 }
 
 TEST(MeshEmbedding, TellsWhichTrianglesMeet) {

@@ -1,0 +1,32 @@
+// Where is a mesh off its surface?
+#pragma once
+
+#include "sdf/dual_cells.h"
+#include "sdf/mesh_attributes.h"
+#include "sdf/mesh_limits.h"
+#include "sdf/surface_mesh.h"
+
+namespace edgewise::sdf {
+
+/// A place where mesh and surface are apart, and how many times its cells are to be halved for that to
+/// change.
+struct PlaceOff {
+    glm::dvec3 place_world;
+    int level;   ///< of its brick now
+    int halved;  ///< 1 to kMostHalved, by how far off it is
+};
+inline constexpr int kMostHalved = 3;
+
+/// Where more than the limits was found: from the mesh's edges' middles and triangles' centres to the
+/// surface; from where the surface crosses cells' edges, and from where it is nearest to cells' centres, to
+/// the mesh. What the mesh has missed whole is found so too.
+std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
+                                const DualComplex& complex, const SharpCells& sharp,
+                                const MeshLimits& limits);
+
+/// Divides the bricks of such places, until there are so many. Gives how many; 0: all are as small as they
+/// can be.
+std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, std::size_t most_bricks,
+                     BrickList& bricks);
+
+}  // namespace edgewise::sdf
