@@ -41,20 +41,8 @@ class Octree {
         const int level = found_.bricks[index].level + 1, side = kBrickCells * (kUnits >> level);
         const TapeView tape = found_.bricks[index].tape;
         const double half = 0.5 * lattice_.step * side / kUnits;
-        std::array<glm::ivec3, kPointLanes> firsts;
-        LanePoints centres;
-        for (int part = 0; part < kPointLanes; ++part) {
-            firsts[part] = first + side * glm::ivec3(part & 1, part >> 1 & 1, part >> 2 & 1);
-            const glm::dvec3 centre = lattice_.corner(firsts[part]) + half;
-            for (int axis = 0; axis < 3; ++axis) centres.axis[axis][part] = centre[axis];
-        }
-        double values[kPointLanes];
-        laneValues(tape, centres, values);
-        PickLists shorter;
-        const bool shorten = bound_holds_ && tape.size() >= kShort;
-        if (shorten)
-            pruneEight(tape, tape_.positions, tape_.values, centres,
-                       (half + kBrickMargin * lattice_.step) * std::sqrt(3.0), shorter);
+        const Eighths eighths = cut(tape, first, side, half,
+                                    [&](const glm::ivec3& part) { return lattice_.corner(part) + half; });
         const auto parts = static_cast<std::uint32_t>(found_.parts.size());
         std::uint32_t& entry = entryOf(first, level - 1);
         entry = kDividedBit | parts;
@@ -63,18 +51,53 @@ class Octree {
         for (int part = 0; part < kPointLanes; ++part) {
             ++found_.nodes;
             found_.parts[parts][part] = kNoBrick;
-            if (free(tape, lattice_.corner(firsts[part]) + half, half, values[part])) {
+            if (free(tape, eighths.centreOf(part), half, eighths.values[part])) {
                 ++found_.pruned;
                 continue;
             }
-            TapeView own = tape;
-            if (shorten && shorter.of(part).size() < tape.size())
-                own.picks = shorter.of(part).data(), own.count = shorter.of(part).size();
-            found_.parts[parts][part] = keep(firsts[part], level, own);
+            found_.parts[parts][part] = keep(eighths.firsts[part], level, eighths.tapeOf(part, tape));
         }
     }
 
   private:
+    /// The eight parts of a node: values at their centres, and their tapes.
+    struct Eighths {
+        std::array<glm::ivec3, kPointLanes> firsts;
+        LanePoints centres;
+        double values[kPointLanes];
+        PickLists shorter;
+        bool shortened = false;
+
+        glm::dvec3 centreOf(int part) const {
+            return {centres.axis[0][part], centres.axis[1][part], centres.axis[2][part]};
+        }
+        /// Refers to this one's picks.
+        TapeView tapeOf(int part, const TapeView& around) const {
+            TapeView own = around;
+            const auto picks = shorter.of(part);
+            if (shortened && picks.size() < around.size()) own.picks = picks.data(), own.count = picks.size();
+            return own;
+        }
+    };
+
+    /// `side`: of a part, in the units of `first`; `half`: of its side, in world units.
+    template <class CentreOf>
+    Eighths cut(const TapeView& tape, const glm::ivec3& first, int side, double half,
+                const CentreOf& centre_of) const {
+        Eighths out;
+        for (int part = 0; part < kPointLanes; ++part) {
+            out.firsts[part] = first + side * glm::ivec3(part & 1, part >> 1 & 1, part >> 2 & 1);
+            const glm::dvec3 centre = centre_of(out.firsts[part]);
+            for (int axis = 0; axis < 3; ++axis) out.centres.axis[axis][part] = centre[axis];
+        }
+        laneValues(tape, out.centres, out.values);
+        out.shortened = bound_holds_ && tape.size() >= kShort;
+        if (out.shortened)
+            pruneEight(tape, tape_.positions, tape_.values, out.centres,
+                       (half + kBrickMargin * lattice_.step) * std::sqrt(3.0), out.shorter);
+        return out;
+    }
+
     glm::dvec3 centreOf(const glm::ivec3& first, int size) const {
         return lattice_.low_world +
                lattice_.step * kBrickCells * (glm::dvec3(first) + 0.5 * static_cast<double>(size));
@@ -107,32 +130,17 @@ class Octree {
     void visit(const glm::ivec3& first, int size, const TapeView& tape) {
         if (size == 1) return add(first, tape);
         const int half_size = size / 2;
-        LanePoints centres;
-        std::array<glm::ivec3, kPointLanes> firsts;
+        const Eighths eighths = cut(tape, first, half_size, halfOf(half_size),
+                                    [&](const glm::ivec3& part) { return centreOf(part, half_size); });
         for (int part = 0; part < kPointLanes; ++part) {
-            firsts[part] = first + half_size * glm::ivec3(part & 1, part >> 1 & 1, part >> 2 & 1);
-            const glm::dvec3 centre = centreOf(firsts[part], half_size);
-            for (int axis = 0; axis < 3; ++axis) centres.axis[axis][part] = centre[axis];
-        }
-        double values[kPointLanes];
-        laneValues(tape, centres, values);
-        PickLists shorter;
-        const bool shorten = bound_holds_ && tape.size() >= kShort;
-        if (shorten)
-            pruneEight(tape, tape_.positions, tape_.values, centres,
-                       (halfOf(half_size) + kBrickMargin * lattice_.step) * std::sqrt(3.0), shorter);
-        for (int part = 0; part < kPointLanes; ++part) {
-            if (outside(firsts[part])) continue;
+            if (outside(eighths.firsts[part])) continue;
             ++found_.nodes;
-            if (free(tape, centreOf(firsts[part], half_size), halfOf(half_size), values[part])) {
+            if (free(tape, eighths.centreOf(part), halfOf(half_size), eighths.values[part])) {
                 ++found_.pruned;
-                found_.open |= !(values[part] > 0.0) && atTheEnd(firsts[part], half_size);
+                found_.open |= !(eighths.values[part] > 0.0) && atTheEnd(eighths.firsts[part], half_size);
                 continue;
             }
-            TapeView own = tape;
-            if (shorten && shorter.of(part).size() < tape.size())
-                own.picks = shorter.of(part).data(), own.count = shorter.of(part).size();
-            visit(firsts[part], half_size, own);
+            visit(eighths.firsts[part], half_size, eighths.tapeOf(part, tape));
         }
     }
 

@@ -9,9 +9,6 @@
 namespace edgewise {
 namespace {
 
-/// Of a pixel's radius: hits lie up to an eighth of it before their surface, so two of one plane up to that
-/// apart.
-constexpr double kOnPlane = 0.25;
 /// What a sample may be on the wrong side of a line, in pixels: of hits' own inexactness.
 constexpr double kLineSlack = 1.0 / 16.0;
 /// Outlines asked for before samples are counted.

@@ -37,9 +37,9 @@ class Corners {
 
 }  // namespace
 
-sdf::TravellingRay rayFrom(const sdf::RayGrid& grid, const EdgeCell& cell, const glm::dvec2& p_px) {
-    sdf::TravellingRay ray{grid.ray(p_px), cell.sign};
-    ray.ray.t_min = std::max(ray.ray.t_min, std::min(cell.t_start, ray.ray.t_max));
+sdf::TravellingRay rayFrom(const sdf::RayGrid& grid, const glm::dvec2& p_px, double sign, double t_start) {
+    sdf::TravellingRay ray{grid.ray(p_px), sign};
+    ray.ray.t_min = std::max(ray.ray.t_min, std::min(t_start, ray.ray.t_max));
     return ray;
 }
 
@@ -65,12 +65,11 @@ void CellSampling::askCorners(const ConeRows& rows, std::vector<EdgeCell>& cells
             std::uint32_t& corner = corners.of(cell, k);
             if (corner != Corners::kNone) continue;
             corner = static_cast<std::uint32_t>(rays.size());
-            EdgeCell all = {};
-            all.sign = cell.sign;
+            double start = 0.0;
             const std::size_t left = cell.pixel - (k & 1 ? 0 : 1), above = left - (k & 2 ? 0 : rows.width());
             for (const std::size_t i : {above, above + 1, above + rows.width(), above + rows.width() + 1})
-                all.t_start = std::max(all.t_start, rows.startOf(i, grid_.t_max));
-            rays.push_back(rayFrom(grid_, all, cell.sampleAt(k)));
+                start = std::max(start, rows.startOf(i, grid_.t_max));
+            rays.push_back(rayFrom(grid_, cell.sampleAt(k), cell.sign, start));
         }
     const std::vector<double> depths = device_.batches().depths(rays);
     rays_ += rays.size();

@@ -6,8 +6,12 @@
 
 namespace edgewise {
 
-/// The ray through a place of the cell, from where its cone found something.
-sdf::TravellingRay rayFrom(const sdf::RayGrid& grid, const EdgeCell& cell, const glm::dvec2& p_px);
+/// The ray of that sign through a place of the film, from t_start on.
+sdf::TravellingRay rayFrom(const sdf::RayGrid& grid, const glm::dvec2& p_px, double sign, double t_start);
+/// Through a place of the cell, from where its cone found something.
+inline sdf::TravellingRay rayFrom(const sdf::RayGrid& grid, const EdgeCell& cell, const glm::dvec2& p_px) {
+    return rayFrom(grid, p_px, cell.sign, cell.t_start);
+}
 
 class CellSampling {
   public:

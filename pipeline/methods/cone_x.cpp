@@ -16,11 +16,11 @@ namespace {
 
 /// Rows whose cones are held at once, beside one above and one below.
 constexpr int kRowsAtOnce = 128;
+
 class ConeXTracer : public OverDevice {
   public:
     ConeXTracer(const MethodInput& in, const FieldSettings& settings, std::unique_ptr<FieldTracer> device)
         : OverDevice(std::move(device)),
-          in_(in),
           scene_(*in.scene.field),
           grid_(rayGrid(in.camera, in.film, scene_.far)),
           background_(in.options.background, 0.0),
@@ -54,6 +54,7 @@ class ConeXTracer : public OverDevice {
 
   private:
     bool hasTree() const { return !scene_.glsl && !scene_.tree.empty(); }
+
     void traceRows(const FieldWindow& window, int y0, int y1, FieldSamples& out) {
         const ConeRows rows =
             coneRows(*device_, {window.pixels.x0 - 1, y0 - 1, window.pixels.x1 + 1, y1 + 1});
@@ -112,7 +113,6 @@ class ConeXTracer : public OverDevice {
         }
     }
 
-    const MethodInput in_;
     const sdf::FieldScene& scene_;
     const sdf::RayGrid grid_;
     const glm::dvec4 background_;

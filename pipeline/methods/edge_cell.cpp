@@ -9,8 +9,6 @@
 namespace edgewise {
 namespace {
 
-/// Of a pixel's radius: two hits of one plane may be as far apart across it.
-constexpr double kOnPlane = 0.25;
 /// Normals within 10 degrees may be one surface's.
 constexpr double kSmoothCosine = 0.985;
 

@@ -9,6 +9,9 @@
 
 namespace edgewise {
 
+/// Of a pixel's radius: what two hits of one plane may be apart across it.
+inline constexpr double kOnPlane = 0.25;
+
 /// A surface as a plane, or what lies behind all surfaces.
 struct CellPiece {
     bool sky = true;

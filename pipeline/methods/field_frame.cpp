@@ -30,11 +30,12 @@ PixelBox within(const PixelBox& box, const Film& film) {
 /// A picture in bands of rows.
 class FieldFrame {
   public:
-    FieldFrame(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make)
+    FieldFrame(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make,
+               int per_side = 1)
         : in_(in),
           settings_(settings),
           make_(make),
-          tracer_(make(in, settings)),
+          tracer_(make(in, ofSamples(settings, per_side))),
           aov_(in),
           pictures_(in.options.dump_dir, in.film.crop) {
         result_.image = ImageBuffer(in.film.crop);
@@ -64,7 +65,7 @@ class FieldFrame {
             pictures_.add(window, samples);
             forRows(part, [&](int x, int y) { filterPixel(weights, window, samples, x, y); });
             watch_.book("filter", stages_);
-            takeAovs(per_side, part);
+            takeAovs(part);
         });
         return finished();
     }
@@ -89,6 +90,12 @@ class FieldFrame {
     }
 
   private:
+    /// Samples are as much smaller than pixels.
+    static FieldSettings ofSamples(FieldSettings settings, int per_side) {
+        settings.trace.threshold /= per_side;
+        return settings;
+    }
+
     template <class Band>
     void forBands(int per_side, int margin, const Band& band) {
         const PixelBox& crop = in_.film.crop;
@@ -142,14 +149,10 @@ class FieldFrame {
         result_.image.edge[pixel] = spread.edge();
     }
 
-    /// Of one sample a pixel, hit as exactly as its size asks for.
-    void takeAovs(int per_side, const PixelBox& part) {
+    /// Of one sample a pixel, hit as every method's.
+    void takeAovs(const PixelBox& part) {
         if (!aov_.active()) return;
-        if (!aov_tracer_) {
-            FieldSettings single = settings_;
-            single.trace.threshold *= per_side;
-            aov_tracer_ = make_(in_, single);
-        }
+        if (!aov_tracer_) aov_tracer_ = make_(in_, settings_);
         FieldWindow window;
         window.pixels = part;
         const FieldSamples samples = aov_tracer_->trace(window);
@@ -185,7 +188,7 @@ MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, c
 
 MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
                            const FieldTracerMaker& make) {
-    return FieldFrame(in, settings, make).filtered(per_side);
+    return FieldFrame(in, settings, make, per_side).filtered(per_side);
 }
 
 MethodResult traceParts(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make) {

@@ -9,7 +9,8 @@ namespace edgewise {
 /// One sample at the pixel's centre. `edge`: 1 where a neighbour within the film differs.
 MethodResult tracePixels(const MethodInput& in, const FieldSettings& settings, const FieldTracerMaker& make);
 
-/// K x K samples a pixel, filtered; each is shaded where it lands. `edge`: 1 where the support's differ.
+/// K x K samples a pixel, filtered; each is shaded where it lands, and hit within a K-th of the threshold.
+/// `edge`: 1 where the support's differ.
 MethodResult traceFiltered(const MethodInput& in, const FieldSettings& settings, int per_side,
                            const FieldTracerMaker& make);
 

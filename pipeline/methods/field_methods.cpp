@@ -97,9 +97,7 @@ MethodResult traceSphere(const MethodSpec& spec, const MethodInput& in, const Fi
 }
 
 MethodResult traceSsaa(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
-    FieldSettings settings;
-    settings.trace.threshold /= *spec.number;
-    return traceFiltered(in, settings, *spec.number, make);
+    return traceFiltered(in, {}, *spec.number, make);
 }
 
 MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const FieldTracerMaker& make) {
@@ -108,7 +106,7 @@ MethodResult traceCtss(const MethodSpec& spec, const MethodInput& in, const Fiel
     const MethodInput all{scene, in.camera, in.film, in.filter, in.options, in.progress};
     FieldSettings settings;
     settings.cones = conesOf(spec);
-    settings.cones->coverage /= per_side, settings.trace.threshold /= per_side;
+    settings.cones->coverage /= per_side;
     if (per_side == 1) return tracePixels(all, settings, coneTracerMaker(make));
     return traceFiltered(all, settings, per_side, coneTracerMaker(make));
 }
