@@ -55,16 +55,13 @@ std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
     for (const EdgeCell& cell : cells_) divided[cell.pixel] = cell.pieces.front().weight < 1.0;
     std::vector<std::size_t> found;
     std::vector<LightCell> light_cells;
-    const std::size_t height = static_cast<std::size_t>(rows_.pixels.height()), width = rows_.width();
-    for (std::size_t y = 1; y + 1 < height; ++y)
-        for (std::size_t x = 1; x + 1 < width; ++x) {
-            const std::size_t i = y * width + x;
-            const std::uint32_t own = shades.of_pixel[i];
-            if (divided[i] || own == kNoGroup || !seesOther(shades, i, own)) continue;
-            found.push_back(i);
-            light_cells.push_back({rows_.centreOf(i), rows_.cones.rays[i].sign, shades.hits[own], colors[i],
-                                   shades.sights[own]});
-        }
+    for (const std::size_t i : rows_.zOrder(1)) {
+        const std::uint32_t own = shades.of_pixel[i];
+        if (divided[i] || own == kNoGroup || !seesOther(shades, i, own)) continue;
+        found.push_back(i);
+        light_cells.push_back(
+            {rows_.centreOf(i), rows_.cones.rays[i].sign, shades.hits[own], colors[i], shades.sights[own]});
+    }
     const std::vector<glm::dvec4> means = meansOver(grid_, device_, light_cells);
     for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = means[k];
     return found;

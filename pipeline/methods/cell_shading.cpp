@@ -16,21 +16,21 @@ CellShades CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells
         return static_cast<std::uint32_t>(shades.rays.size() - 1);
     };
     std::vector<std::uint32_t> pixel_of;
-    std::vector<char> hidden(rows.cones.samples());
-    for (const EdgeCell& cell : cells) hidden[cell.pixel] = cell.pieces.front().weight == 0.0;
-    for (std::size_t i = 0; i < rows.cones.samples(); ++i) {
+    std::vector<EdgeCell*> cell_of(rows.cones.samples(), nullptr);
+    for (EdgeCell& cell : cells) cell_of[cell.pixel] = &cell;
+    for (const std::size_t i : rows.zOrder(0)) {
+        EdgeCell* cell = cell_of[i];
         const sdf::SurfaceHit* hit = rows.hitOf(i);
-        if (!hit || hidden[i]) continue;
-        shades.of_pixel[i] = add(rows.cones.rays[i], *hit);
-        pixel_of.push_back(static_cast<std::uint32_t>(i));
-    }
-    for (EdgeCell& cell : cells) {
-        cell.pieces.front().shade = shades.of_pixel[cell.pixel];
-        for (std::size_t k = 1; k < cell.pieces.size(); ++k) {
-            CellPiece& piece = cell.pieces[k];
+        if (hit && !(cell && cell->pieces.front().weight == 0.0)) {
+            shades.of_pixel[i] = add(rows.cones.rays[i], *hit);
+            pixel_of.push_back(static_cast<std::uint32_t>(i));
+        }
+        if (!cell) continue;
+        cell->pieces.front().shade = shades.of_pixel[i];
+        for (CellPiece& piece : std::span(cell->pieces).subspan(1)) {
             if (piece.weight == 0.0 || piece.sky || !piece.hit) continue;
-            piece.shade = add({grid_.ray(piece.seen_px), cell.sign}, *piece.hit);
-            pixel_of.push_back(static_cast<std::uint32_t>(cell.pixel));
+            piece.shade = add({grid_.ray(piece.seen_px), cell->sign}, *piece.hit);
+            pixel_of.push_back(static_cast<std::uint32_t>(i));
         }
     }
     tbb::parallel_for(std::size_t(0), pixel_of.size(),

@@ -41,7 +41,30 @@ std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i, double
     return cell;
 }
 
+/// Side of the squares that zOrder() goes through one after the other, each along a Z-order curve.
+constexpr std::uint32_t kSquare = 64;
+
+/// Every other bit.
+std::uint32_t evenBits(std::uint32_t m) {
+    std::uint32_t out = 0;
+    for (std::uint32_t bit = 0; bit < 6; ++bit) out |= (m >> 2 * bit & 1u) << bit;
+    return out;
+}
+
 }  // namespace
+
+std::vector<std::size_t> ConeRows::zOrder(std::size_t border) const {
+    const std::size_t right = width() - border,
+                      bottom = static_cast<std::size_t>(pixels.height()) - border;
+    std::vector<std::size_t> order;
+    for (std::size_t y0 = border; y0 < bottom; y0 += kSquare)
+        for (std::size_t x0 = border; x0 < right; x0 += kSquare)
+            for (std::uint32_t m = 0; m < kSquare * kSquare; ++m) {
+                const std::size_t x = x0 + evenBits(m), y = y0 + evenBits(m >> 1);
+                if (x < right && y < bottom) order.push_back(y * width() + x);
+            }
+    return order;
+}
 
 ConeRows coneRows(FieldTracer& device, const PixelBox& pixels) {
     ConeRows rows;
@@ -62,15 +85,16 @@ ConeRows coneRows(FieldTracer& device, const PixelBox& pixels) {
 }
 
 std::vector<EdgeCell> doubtfulCells(const ConeRows& rows, double t_max) {
-    const std::size_t height = static_cast<std::size_t>(rows.pixels.height()), width = rows.width();
-    std::vector<std::vector<EdgeCell>> by_row(height);
-    tbb::parallel_for(std::size_t(1), height - 1, [&](std::size_t y) {
-        for (std::size_t x = 1; x + 1 < width; ++x)
-            if (auto cell = doubtfulCell(rows, y * width + x, t_max)) by_row[y].push_back(std::move(*cell));
+    constexpr std::size_t kPart = 1024;
+    const std::vector<std::size_t> order = rows.zOrder(1);
+    std::vector<std::vector<EdgeCell>> parts((order.size() + kPart - 1) / kPart);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
+        for (std::size_t k = p * kPart; k < std::min(order.size(), (p + 1) * kPart); ++k)
+            if (auto cell = doubtfulCell(rows, order[k], t_max)) parts[p].push_back(std::move(*cell));
     });
     std::vector<EdgeCell> cells;
-    for (std::vector<EdgeCell>& row : by_row)
-        cells.insert(cells.end(), std::make_move_iterator(row.begin()), std::make_move_iterator(row.end()));
+    for (std::vector<EdgeCell>& part : parts)
+        cells.insert(cells.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
     return cells;
 }
 

@@ -39,6 +39,8 @@ struct ConeRows {
         const sdf::FieldRay& ray = cones.rays[pixel].ray;
         return ray.pixel_radius + ray.pixel_slope * (hit ? hit->t : 0.0);
     }
+    /// Pixels but for a border of that width, near ones near each other: their rays travel together.
+    std::vector<std::size_t> zOrder(std::size_t border) const;
     /// The eight neighbours of a pixel that is not in the margin.
     std::array<std::size_t, 8> around(std::size_t i) const {
         const std::size_t w = width();
