@@ -213,7 +213,7 @@ bool CellDivision::divideByStrip(EdgeCell& cell) const {
     const sdf::FieldRay ray = rayOf(place);
     const double t = glm::dot(near->surface_world - ray.origin_world, ray.direction_world);
     const sdf::SurfaceHit hit = tracer_->fieldHit(ray, {sdf::TraceEnd::kSurface, t, NAN, 0, 0, 0}, cell.sign);
-    CellPiece piece = pieceOf(&hit, place);
+    CellPiece piece = pieceOf(planeOf(&hit), place);
     piece.hit = hit;
     cell.pieces.push_back(piece);
     cell.add({static_cast<int>(cell.pieces.size()) - 1, 1.0, std::move(part)});

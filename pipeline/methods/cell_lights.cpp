@@ -9,11 +9,11 @@ namespace edgewise {
 
 /// Whether a neighbour on the surface of that shade has another sight; its own pixel is one too.
 bool CellLights::seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const {
-    const CellPiece piece = pieceOf(&shades.hits[shade], {});
+    const SurfacePlane plane = planeOf(&shades.hits[shade]);
     const auto differs = [&](std::size_t j) {
         const std::uint32_t other = shades.of_pixel[j];
         return other != kNoGroup && shades.sights[other] != shades.sights[shade] &&
-               smoothlyOne(piece, pieceOf(rows_.hitOf(j), {}), rows_.radiusOf(j));
+               smoothlyOne(plane, rows_.planes[j], rows_.radii[j]);
     };
     return differs(pixel) || std::ranges::any_of(rows_.around(pixel), differs);
 }

@@ -125,7 +125,7 @@ std::vector<EdgeCell*> CellSampling::nameOne(const std::vector<EdgeCell*>& asked
     const std::vector<sdf::SurfaceHit> hits = device_.batches().describe(rays, depths);
     for (std::size_t i = 0; i < again.size(); ++i) {
         EdgeCell& cell = *again[i];
-        CellPiece piece = pieceOf(hits[i].hit ? &hits[i] : nullptr, cell.sampleAt(samples[i]));
+        CellPiece piece = pieceOf(planeOf(hits[i].hit ? &hits[i] : nullptr), cell.sampleAt(samples[i]));
         if (hits[i].hit) piece.hit = hits[i];
         cell.depths[samples[i]] = hits[i].hit ? hits[i].t : HUGE_VAL;
         adopt(cell, piece);
@@ -137,7 +137,10 @@ std::vector<EdgeCell*> CellSampling::nameOne(const std::vector<EdgeCell*>& asked
 void CellSampling::adopt(EdgeCell& cell, CellPiece& piece) const {
     const double radius = piece.hit ? grid_.halfPixel() * (grid_.perspective ? piece.hit->t : 1.0) : 0.0;
     for (CellPiece& known : cell.pieces)
-        if (!known.sky && smoothlyOne(known, piece, radius)) takeBend(known, piece), takeBend(piece, known);
+        if (!known.sky && smoothlyOne(known, piece, radius)) {
+            const double bend = bendBetween(known, piece);
+            known.bend = std::max(known.bend, bend), piece.bend = std::max(piece.bend, bend);
+        }
     cell.pieces.push_back(piece);
 }
 

@@ -2,6 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <numeric>
+#include <span>
+
 #include "pipeline/methods/cell_sampling.h"
 #include "pipeline/methods/pattern_footprint.h"
 
@@ -10,33 +14,49 @@ namespace edgewise {
 CellShades CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells) const {
     meetPieces(cells);
     CellShades shades;
-    shades.of_pixel.assign(rows.cones.samples(), kNoGroup);
-    const auto add = [&](const sdf::TravellingRay& ray, const sdf::SurfaceHit& hit) {
-        shades.rays.push_back(ray), shades.hits.push_back(hit);
-        return static_cast<std::uint32_t>(shades.rays.size() - 1);
-    };
-    std::vector<std::uint32_t> pixel_of;
-    std::vector<EdgeCell*> cell_of(rows.cones.samples(), nullptr);
-    for (EdgeCell& cell : cells) cell_of[cell.pixel] = &cell;
-    for (const std::size_t i : rows.zOrder(0)) {
-        EdgeCell* cell = cell_of[i];
-        const sdf::SurfaceHit* hit = rows.hitOf(i);
-        if (hit && !(cell && cell->pieces.front().weight == 0.0)) {
-            shades.of_pixel[i] = add(rows.cones.rays[i], *hit);
-            pixel_of.push_back(static_cast<std::uint32_t>(i));
-        }
-        if (!cell) continue;
-        cell->pieces.front().shade = shades.of_pixel[i];
-        for (CellPiece& piece : std::span(cell->pieces).subspan(1)) {
-            if (piece.weight == 0.0 || piece.sky || !piece.hit) continue;
-            piece.shade = add({grid_.ray(piece.seen_px), cell->sign}, *piece.hit);
-            pixel_of.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    tbb::parallel_for(std::size_t(0), pixel_of.size(),
-                      [&](std::size_t k) { takePattern(rows, pixel_of[k], shades.hits[k]); });
+    collect(rows, cells, shades);
     shades.colors = device_.shade(shades.rays, shades.hits, &shades.sights);
     return shades;
+}
+
+/// In Z-order, a pixel's pieces after its own hit.
+void CellShading::collect(const ConeRows& rows, std::vector<EdgeCell>& cells, CellShades& shades) const {
+    constexpr std::size_t kPart = 1024;
+    shades.of_pixel.assign(rows.cones.samples(), kNoGroup);
+    std::vector<EdgeCell*> cell_of(rows.cones.samples(), nullptr);
+    for (EdgeCell& cell : cells) cell_of[cell.pixel] = &cell;
+    const std::vector<std::size_t> order = rows.zOrder(0);
+    const auto eachOf = [&](std::size_t part, const auto& visit) {
+        for (std::size_t k = part * kPart; k < std::min(order.size(), (part + 1) * kPart); ++k)
+            eachShaded(rows, order[k], cell_of[order[k]], visit);
+    };
+    std::vector<std::size_t> begin((order.size() + kPart - 1) / kPart + 1, 0);
+    tbb::parallel_for(std::size_t(0), begin.size() - 1, [&](std::size_t part) {
+        eachOf(part, [&](std::size_t, const sdf::SurfaceHit&, CellPiece*) { ++begin[part + 1]; });
+    });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    shades.rays.resize(begin.back()), shades.hits.resize(begin.back());
+    tbb::parallel_for(std::size_t(0), begin.size() - 1, [&](std::size_t part) {
+        std::size_t at = begin[part];
+        eachOf(part, [&](std::size_t i, const sdf::SurfaceHit& hit, CellPiece* piece) {
+            shades.rays[at] = rows.cones.rays[i];
+            if (piece) shades.rays[at].ray = grid_.ray(piece->seen_px);
+            shades.hits[at] = hit;
+            takePattern(rows, i, shades.hits[at]);
+            (piece ? piece->shade : shades.of_pixel[i]) = static_cast<std::uint32_t>(at++);
+        });
+    });
+    for (EdgeCell& cell : cells) cell.pieces.front().shade = shades.of_pixel[cell.pixel];
+}
+
+/// Visits what a pixel shows that can be lit: its own hit, with no piece, and its cell's other pieces.
+template <class Visit>
+void CellShading::eachShaded(const ConeRows& rows, std::size_t i, EdgeCell* cell, const Visit& visit) {
+    const sdf::SurfaceHit* own = rows.hitOf(i);
+    if (own && !(cell && cell->pieces.front().weight == 0.0)) visit(i, *own, nullptr);
+    if (!cell) return;
+    for (CellPiece& piece : std::span(cell->pieces).subspan(1))
+        if (piece.weight != 0.0 && !piece.sky && piece.hit) visit(i, *piece.hit, &piece);
 }
 
 /// Pieces that only neighbours have met are met within their pixel.
@@ -64,10 +84,10 @@ void CellShading::meetPieces(std::vector<EdgeCell>& cells) const {
 /// surface.
 std::optional<glm::dvec3> CellShading::stepOf(const ConeRows& rows, std::size_t i, const sdf::SurfaceHit& hit,
                                               std::size_t before, std::size_t after) const {
-    const CellPiece own = pieceOf(&hit, {});
+    const SurfacePlane own = planeOf(&hit);
     const auto local = [&](std::size_t j) -> std::optional<glm::dvec3> {
         const sdf::SurfaceHit* other = rows.hitOf(j);
-        if (!other || !smoothlyOne(own, pieceOf(other, {}), rows.radiusOf(j))) return std::nullopt;
+        if (!other || !smoothlyOne(own, rows.planes[j], rows.radii[j])) return std::nullopt;
         return other->p_local;
     };
     const auto b = local(before), a = local(after), c = local(i);

@@ -26,6 +26,9 @@ class CellShading {
 
   private:
     void meetPieces(std::vector<EdgeCell>& cells) const;
+    void collect(const ConeRows& rows, std::vector<EdgeCell>& cells, CellShades& shades) const;
+    template <class Visit>
+    static void eachShaded(const ConeRows& rows, std::size_t pixel, EdgeCell* cell, const Visit& visit);
     std::optional<glm::dvec3> stepOf(const ConeRows& rows, std::size_t i, const sdf::SurfaceHit& hit,
                                      std::size_t before, std::size_t after) const;
     void takePattern(const ConeRows& rows, std::size_t i, sdf::SurfaceHit& hit) const;

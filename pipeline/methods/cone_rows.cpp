@@ -10,45 +10,48 @@
 namespace edgewise {
 namespace {
 
+/// Neighbours that see other surfaces than the pixel does; `bend`: of its own, as the others tell.
+std::vector<std::size_t> strangersOf(const ConeRows& rows, std::size_t i, double& bend) {
+    const SurfacePlane& own = rows.planes[i];
+    std::vector<std::size_t> strangers;
+    for (const std::size_t j : rows.around(i))
+        if (smoothlyOne(own, rows.planes[j], std::max(rows.radii[i], rows.radii[j])))
+            bend = std::max(bend, bendBetween(own, rows.planes[j]));
+        else
+            strangers.push_back(j);
+    return strangers;
+}
+
 std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i, double t_max) {
+    double bend = 0.0;
+    const std::vector<std::size_t> strangers = strangersOf(rows, i, bend);
+    if (!rows.soft[i] && strangers.empty()) return std::nullopt;
     const sdf::SurfaceHit* own = rows.hitOf(i);
-    CellPiece centre = pieceOf(own, rows.centreOf(i));
-    const double radius = rows.radiusOf(i);
-    bool doubtful = rows.soft[i];
-    std::vector<CellPiece> others;
-    for (const std::size_t j : rows.around(i)) {
-        const CellPiece other = pieceOf(rows.hitOf(j), rows.centreOf(j));
-        if (smoothlyOne(centre, other, std::max(radius, rows.radiusOf(j)))) {
-            takeBend(centre, other);
-            continue;
-        }
-        doubtful = true;
-        others.push_back(other);
-    }
-    if (!doubtful) return std::nullopt;
     EdgeCell cell;
     cell.pixel = i, cell.centre_px = rows.centreOf(i), cell.sign = rows.cones.rays[i].sign;
-    cell.pieces.push_back(centre);
+    cell.pieces.push_back(pieceOf(rows.planes[i], cell.centre_px));
+    cell.pieces.front().bend = bend;
     if (own) cell.pieces.front().hit = *own;
     cell.depths[0] = own ? own->t : HUGE_VAL;
-    const std::uint32_t first = rows.cones.begin[i];
     cell.t_start = rows.startOf(i, t_max);
-    if (rows.soft[i]) cell.soft_t = rows.cones.groups[first].entry;
-    for (const CellPiece& other : others)
-        if (std::ranges::none_of(cell.pieces,
-                                 [&](const auto& p) { return smoothlyOne(p, other, rows.radiusOf(i)); }))
-            cell.pieces.push_back(other);
+    if (rows.soft[i]) cell.soft_t = rows.cones.groups[rows.cones.begin[i]].entry;
+    for (const std::size_t j : strangers)
+        if (std::ranges::none_of(cell.pieces, [&](const CellPiece& p) {
+                return smoothlyOne(p, rows.planes[j], rows.radii[i]);
+            }))
+            cell.pieces.push_back(pieceOf(rows.planes[j], rows.centreOf(j)));
     return cell;
 }
 
 /// Side of the squares that zOrder() goes through one after the other, each along a Z-order curve.
 constexpr std::uint32_t kSquare = 64;
 
-/// Every other bit.
+/// Every other bit of 12.
 std::uint32_t evenBits(std::uint32_t m) {
-    std::uint32_t out = 0;
-    for (std::uint32_t bit = 0; bit < 6; ++bit) out |= (m >> 2 * bit & 1u) << bit;
-    return out;
+    m &= 0x555u;
+    m = (m | m >> 1) & 0x333u;
+    m = (m | m >> 2) & 0xf0fu;
+    return (m | m >> 4) & 0x3fu;
 }
 
 }  // namespace
@@ -74,13 +77,18 @@ ConeRows coneRows(FieldTracer& device, const PixelBox& pixels) {
     rows.cones = device.traceCones(window);
     const std::size_t count = rows.cones.samples();
     rows.hard.assign(count, kNoGroup), rows.soft.assign(count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    rows.planes.resize(count), rows.radii.resize(count);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
         const std::uint32_t end = rows.cones.begin[i + 1];
         std::uint32_t g = rows.cones.begin[i];
         while (g < end && !rows.cones.groups[g].hard) ++g;
         rows.soft[i] = g > rows.cones.begin[i];
         if (g < end) rows.hard[i] = g;
-    }
+        const sdf::SurfaceHit* hit = rows.hitOf(i);
+        const sdf::FieldRay& ray = rows.cones.rays[i].ray;
+        rows.planes[i] = planeOf(hit);
+        rows.radii[i] = ray.pixel_radius + ray.pixel_slope * (hit ? hit->t : 0.0);
+    });
     return rows;
 }
 

@@ -17,6 +17,8 @@ struct ConeRows {
     FieldCones cones;
     std::vector<std::uint32_t> hard;  ///< a pixel: the group that its ray meets, or kNoGroup
     std::vector<char> soft;           ///< a group lies before that
+    std::vector<SurfacePlane> planes;  ///< what the pixel's ray meets
+    std::vector<double> radii;         ///< a pixel's radius there
 
     std::size_t width() const { return static_cast<std::size_t>(pixels.width()); }
     std::size_t at(int x, int y) const {
@@ -33,11 +35,6 @@ struct ConeRows {
     double startOf(std::size_t pixel, double t_max) const {
         const std::uint32_t first = cones.begin[pixel];
         return first < cones.begin[pixel + 1] ? cones.groups[first].entry : t_max;
-    }
-    double radiusOf(std::size_t pixel) const {
-        const sdf::SurfaceHit* hit = hitOf(pixel);
-        const sdf::FieldRay& ray = cones.rays[pixel].ray;
-        return ray.pixel_radius + ray.pixel_slope * (hit ? hit->t : 0.0);
     }
     /// Pixels but for a border of that width, near ones near each other: their rays travel together.
     std::vector<std::size_t> zOrder(std::size_t border) const;

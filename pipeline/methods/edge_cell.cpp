@@ -14,32 +14,35 @@ constexpr double kSmoothCosine = 0.985;
 
 }  // namespace
 
-CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px) {
+SurfacePlane planeOf(const sdf::SurfaceHit* hit) {
+    if (!hit) return {};
+    return {false, hit->p_world - hit->normal_world * hit->height, hit->normal_world, hit->material};
+}
+
+CellPiece pieceOf(const SurfacePlane& plane, const glm::dvec2& seen_px) {
     CellPiece piece;
+    static_cast<SurfacePlane&>(piece) = plane;
     piece.seen_px = seen_px;
-    piece.sky = hit == nullptr;
-    if (!hit) return piece;
-    piece.p_world = hit->p_world - hit->normal_world * hit->height;
-    piece.n_world = hit->normal_world, piece.material = hit->material;
     return piece;
 }
 
-double offPlane(const CellPiece& piece, const glm::dvec3& p) {
-    return std::abs(glm::dot(p - piece.p_world, piece.n_world));
+double offPlane(const SurfacePlane& plane, const glm::dvec3& p) {
+    return std::abs(glm::dot(p - plane.p_world, plane.n_world));
 }
 
-bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius) {
+bool smoothlyOne(const SurfacePlane& a, const SurfacePlane& b, double radius) {
     if (a.sky || b.sky) return a.sky == b.sky;
     if (a.material != b.material || glm::dot(a.n_world, b.n_world) < kSmoothCosine) return false;
+    const double off = std::max(offPlane(a, b.p_world), offPlane(b, a.p_world));
+    if (off <= kOnPlane * radius) return true;
     // An arc leaves its tangent by half of what its normal turns by, times its length.
     const double arc = 0.5 * glm::distance(a.n_world, b.n_world) * glm::distance(a.p_world, b.p_world);
-    return std::max(offPlane(a, b.p_world), offPlane(b, a.p_world)) <= kOnPlane * radius + arc;
+    return off <= kOnPlane * radius + arc;
 }
 
-void takeBend(CellPiece& piece, const CellPiece& other) {
-    const double apart = glm::distance(piece.p_world, other.p_world);
-    if (!piece.sky && !other.sky && apart > 0.0)
-        piece.bend = std::max(piece.bend, glm::distance(piece.n_world, other.n_world) / apart);
+double bendBetween(const SurfacePlane& a, const SurfacePlane& b) {
+    const double apart = glm::distance(a.p_world, b.p_world);
+    return !a.sky && !b.sky && apart > 0.0 ? glm::distance(a.n_world, b.n_world) / apart : 0.0;
 }
 
 glm::dvec2 EdgeCell::sampleAt(int i) const {

@@ -13,28 +13,32 @@ namespace edgewise {
 inline constexpr double kOnPlane = 0.25;
 
 /// A surface as a plane, or what lies behind all surfaces.
-struct CellPiece {
+struct SurfacePlane {
     bool sky = true;
     glm::dvec3 p_world{0.0}, n_world{0.0};
     std::uint32_t material = 0;
+};
+
+/// The plane of the surface that a hit lies above, and sky for a miss.
+SurfacePlane planeOf(const sdf::SurfaceHit* hit);
+/// Whether both are parts of one smooth surface: their planes are one within a quarter of the pixel's radius
+/// there.
+bool smoothlyOne(const SurfacePlane& a, const SurfacePlane& b, double radius);
+/// The change of the normal from one place to the other per unit of length; 0 for sky and for one place.
+double bendBetween(const SurfacePlane& a, const SurfacePlane& b);
+/// A point's distance from the plane.
+double offPlane(const SurfacePlane& plane, const glm::dvec3& p_world);
+
+struct CellPiece : SurfacePlane {
     glm::dvec2 seen_px{0.0};  ///< where on the film it was met
-    double bend =
-        0.0;  ///< the change of the normal per unit of length, as far as neighbours on the surface tell
+    double bend = 0.0;        ///< bendBetween(), as far as neighbours on the surface tell
     std::optional<sdf::SurfaceHit> hit;  ///< met within this pixel, along the ray through seen_px
     double weight = 0.0;                 ///< the area of its parts
     std::uint32_t shade = kUnshaded;     ///< of what is shaded: its place
     static constexpr std::uint32_t kUnshaded = 0xffffffffu;
 };
 
-/// The plane of the surface that a hit lies above, and sky for a miss.
-CellPiece pieceOf(const sdf::SurfaceHit* hit, const glm::dvec2& seen_px);
-/// Whether both are parts of one smooth surface: their planes are one within a quarter of the pixel's radius
-/// there.
-bool smoothlyOne(const CellPiece& a, const CellPiece& b, double radius);
-/// A surface that bends from the one place to the other bends as much from either.
-void takeBend(CellPiece& piece, const CellPiece& other);
-/// A point's distance from the piece's plane.
-double offPlane(const CellPiece& piece, const glm::dvec3& p_world);
+CellPiece pieceOf(const SurfacePlane& plane, const glm::dvec2& seen_px);
 
 /// A convex polygon of which a piece takes a share: all of it, but where samples were counted.
 struct CellPart {
