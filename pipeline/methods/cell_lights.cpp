@@ -60,11 +60,32 @@ std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
         if (divided[i] || own == kNoGroup || !seesOther(shades, i, own)) continue;
         found.push_back(i);
         light_cells.push_back(
-            {rows_.centreOf(i), rows_.cones.rays[i].sign, shades.hits[own], colors[i], shades.sights[own]});
+            {i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i, divided)});
     }
-    const std::vector<glm::dvec4> means = meansOver(grid_, device_, light_cells);
+    const std::vector<glm::dvec4> means = meansOver(grid_, device_, rows_, light_cells);
     for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = means[k];
     return found;
+}
+
+/// The mean of whole neighbours that see the one other sight there is; none where patterns colour the
+/// surface.
+std::optional<glm::dvec4> CellLights::otherColor(const CellShades& shades, std::size_t pixel,
+                                                 const std::vector<char>& divided) const {
+    const std::uint32_t own = shades.of_pixel[pixel];
+    const sdf::SurfaceMaterial& material = scene_.materials[shades.hits[own].material];
+    if (shades.hits[own].color || material.pattern != sdf::SurfaceMaterial::Pattern::kNone)
+        return std::nullopt;
+    glm::dvec4 sum(0.0);
+    double count = 0.0;
+    std::optional<std::uint32_t> other;
+    for (const std::size_t j : rows_.around(pixel)) {
+        const std::uint32_t shade = shades.of_pixel[j];
+        if (divided[j] || shade == kNoGroup || shades.sights[shade] == shades.sights[own]) continue;
+        if (!smoothlyOne(rows_.planes[pixel], rows_.planes[j], rows_.radii[j])) continue;
+        if (other && *other != shades.sights[shade]) return std::nullopt;
+        other = shades.sights[shade], sum += shades.colors[shade], ++count;
+    }
+    return count > 0.0 ? std::optional(sum / count) : std::nullopt;
 }
 
 }  // namespace edgewise

@@ -8,9 +8,9 @@ namespace edgewise {
 class CellLights {
   public:
     /// Refers to its arguments.
-    CellLights(const sdf::RayGrid& grid, FieldTracer& device, const ConeRows& rows,
-               const std::vector<EdgeCell>& cells)
-        : grid_(grid), device_(device), rows_(rows), cells_(cells) {}
+    CellLights(const sdf::RayGrid& grid, const sdf::FieldScene& scene, FieldTracer& device,
+               const ConeRows& rows, const std::vector<EdgeCell>& cells)
+        : grid_(grid), scene_(scene), device_(device), rows_(rows), cells_(cells) {}
 
     /// Pieces of divided pixels: shaded at several places. How many.
     std::size_t averagePieces(CellShades& shades) const;
@@ -19,9 +19,12 @@ class CellLights {
 
   private:
     bool seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const;
+    std::optional<glm::dvec4> otherColor(const CellShades& shades, std::size_t pixel,
+                                         const std::vector<char>& divided) const;
     std::vector<glm::dvec2> placesOf(const EdgeCell& cell, int piece) const;
 
     const sdf::RayGrid& grid_;
+    const sdf::FieldScene& scene_;
     FieldTracer& device_;
     const ConeRows& rows_;
     const std::vector<EdgeCell>& cells_;

@@ -64,7 +64,7 @@ class ConeXTracer : public OverDevice {
         watch_.book("edges", stages_);
         CellShades shades = shading_.shade(rows, cells);
         watch_.lap();
-        const CellLights lights(grid_, *device_, rows, cells);
+        const CellLights lights(grid_, scene_, *device_, rows, cells);
         lit_pieces_ += lights.averagePieces(shades);
         std::vector<glm::dvec4> colors = blended(rows, cells, shades, background_);
         const std::vector<std::size_t> borders = lights.divideOthers(shades, colors);

@@ -1,22 +1,25 @@
 // Pixels of one surface that the border of a light or of something mirrored crosses.
 #pragma once
 
-#include "pipeline/field_tracer.h"
-#include "sdf/ray_grid.h"
+#include <optional>
+
+#include "pipeline/methods/cone_rows.h"
 
 namespace edgewise {
 
 struct LightCell {
-    glm::dvec2 centre_px;
-    double sign;              ///< of its rays
+    std::size_t pixel = 0;
     sdf::SurfaceHit hit;      ///< the centre's: its tangent plane stands for the surface
-    glm::dvec4 color;         ///< the centre's
+    glm::dvec4 color{0.0};    ///< the centre's
     std::uint32_t sight = 0;  ///< the centre's, as FieldTracer::shade() gives it
+    /// Beyond the border, if a neighbour tells: else it is asked for.
+    std::optional<glm::dvec4> other_color;
 };
 
 /// The mean colour over each cell: by the line between the two places where the border crosses the cell's
-/// sides, if it crosses two; else over 16 places.
-std::vector<glm::dvec4> meansOver(const sdf::RayGrid& grid, FieldTracer& tracer,
+/// sides, if it crosses two; else over 16 places. Neighbours on one surface ask for corners and crossings
+/// once.
+std::vector<glm::dvec4> meansOver(const sdf::RayGrid& grid, FieldTracer& tracer, const ConeRows& rows,
                                   const std::vector<LightCell>& cells);
 
 /// A surface at places of the film.
