@@ -9,7 +9,7 @@ struct EwGroup {
     uint t_hard;  // t's bits, and the sign's: whether it is hard
     float entry_t, least;
 };
-const uint ew_open_bit = 4u, ew_hard_bit = 8u, ew_negative_bit = 16u, ew_longer_bit = 32u;
+const uint ew_open_bit = 4u, ew_hard_bit = 8u, ew_negative_bit = 16u, ew_longer_bit = 32u, ew_missed_bit = 64u;
 layout(std430, binding = 1) buffer EwConeStates { EwConeState ew_cone_states[]; };
 layout(std430, binding = 2) writeonly buffer EwGroups { EwGroup ew_groups[]; };  // the first of each ray, then the second
 
@@ -37,6 +37,7 @@ ew_ConeState ew_unpacked(EwConeState kept) {
     s.hard_t = kept.hard_t;
     s.least = kept.least;
     s.longer = (kept.how & ew_longer_bit) != 0u;
+    s.missed = (kept.how & ew_missed_bit) != 0u;
     s.open = (kept.how & ew_open_bit) != 0u;
     s.hard = (kept.how & ew_hard_bit) != 0u;
     s.closed = false;
@@ -45,7 +46,8 @@ ew_ConeState ew_unpacked(EwConeState kept) {
 }
 EwConeState ew_packed(ew_ConeState s, bool negative, uint groups, uint evaluations) {
     uint how = uint(s.end) | (s.open ? ew_open_bit : 0u) | (s.hard ? ew_hard_bit : 0u) |
-               (negative ? ew_negative_bit : 0u) | (s.longer ? ew_longer_bit : 0u);
+               (negative ? ew_negative_bit : 0u) | (s.longer ? ew_longer_bit : 0u) |
+               (s.missed ? ew_missed_bit : 0u);
     return EwConeState(s.t, s.safe_t, s.last_t, s.value, s.slope, s.wall, s.entry_t, s.hard_t, s.least, how | groups << 8,
                        evaluations);
 }

@@ -3,7 +3,8 @@
 // it is weighed and shaded, at once or later, and coneOpen() goes on.
 //
 // Steps may be longer than Algorithm 1's: through empty space as auto relaxation takes them (Ban and Valasek 2023), on
-// what a ball of free space holds of the cone; and within a surface, which the ray has met, towards where it fills the cone.
+// what a ball of free space holds of the cone; to where the ray should meet the surface that its cone has met; and from there
+// towards where the surface fills the cone.
 // What such a step might have passed is asked again by Algorithm 1's.
 //
 // C++ compiles this text as double, GLSL as float. Distances are f / L.
@@ -34,6 +35,7 @@ struct ConeState {
     real hard_t;   ///< where the ray does
     real least;    ///< of the open group: the least distance, in radii of the cone
     bool longer;   ///< the step to t is
+    bool missed;   ///< in a group: a longer step was taken back
     bool open;
     bool hard;
     bool closed;   ///< a group is complete: entry_t, hard_t, least and hard are its
@@ -52,6 +54,7 @@ EDGEWISE_FN ConeState coneFrom(ConeRules rules, real t_min) {
     s.slope = real(-1.0);
     s.wall = rules.t_max;
     s.longer = false;
+    s.missed = false;
     s.entry_t = t_min;
     s.hard_t = t_min;
     s.least = real(1.0);
@@ -94,12 +97,17 @@ EDGEWISE_FN real coneFree(ConeRules rules, real t, real value) {
 }
 
 /// Whether a long step has passed nothing: outside of groups, two balls that meet beyond the cone's rim have it all between
-/// them. Within one, the distance fell by half of what it should, and could not rise to the cone's radius in between.
+/// them. Within one, the distance fell by half of what it should, and could not rise to the cone's radius in between; and
+/// before the ray has met the surface, two balls hold the ray, or it meets the surface at the end.
 EDGEWISE_FN bool conePassedNothing(ConeRules rules, ConeState s, real value) {
     real step = s.t - s.last_t;
     real radius = coneRadiusAt(rules, s.last_t);
     bool fell = value <= s.value + real(0.5) * s.slope * step;
-    if (s.open) return fell && s.value + value + step < real(2.0) * radius;
+    if (s.open) {
+        bool lands = value >= real(0.0) && value <= rules.hard * coneRadiusAt(rules, s.t);
+        bool met = s.hard || lands || s.value + value >= step;
+        return fell && met && s.value + value + step < real(2.0) * radius;
+    }
     if (!(value > coneRadiusAt(rules, s.t))) return false;
     return coneFree(rules, s.last_t, s.value) + coneFree(rules, s.t, value) >= step;
 }
@@ -108,6 +116,7 @@ EDGEWISE_FN bool conePassedNothing(ConeRules rules, ConeState s, real value) {
 EDGEWISE_FN ConeState coneTakeBack(ConeRules rules, ConeState s, real value) {
     real radius = coneRadiusAt(rules, s.t);
     if (!s.open && value < radius) s.wall = min(s.wall, s.t + value - radius);
+    s.missed = s.open;
     s.slope = s.open ? real(0.0) : real(-1.0);
     s.closed = false;
     s.longer = false;
@@ -116,8 +125,8 @@ EDGEWISE_FN ConeState coneTakeBack(ConeRules rules, ConeState s, real value) {
 }
 
 /// From the point just asked. Two balls that touch the same plane and each
-/// other: r and r + m d, d apart; d = 2 r / (1 - m). Within a surface: a little beyond where a plane would fill the cone, but
-/// so that the distance could not rise to the radius in between.
+/// other: r and r + m d, d apart; d = 2 r / (1 - m). Within a surface: a little before where the ray meets a plane, then a
+/// little beyond where that fills the cone, but so that the distance could not rise to the radius in between.
 EDGEWISE_FN real coneStep(ConeRules rules, ConeState s, real t, real value) {
     real least = coneLeastStep(rules, t, value), radius = coneRadiusAt(rules, t);
     if (!rules.overstep) return least;
@@ -125,10 +134,12 @@ EDGEWISE_FN real coneStep(ConeRules rules, ConeState s, real t, real value) {
         real step = real(2.0) * coneFree(rules, t, value) / max(real(1.0) - s.slope, real(1e-6));
         return max(min(step, s.wall - t), least);
     }
-    if (!s.hard || !(s.slope < real(0.0))) return least;
-    real filled = real(1.0625) * (value + radius) / -s.slope;
+    if (!(s.slope < real(0.0))) return least;
     real kept = real(1.9375) * (radius - value) / max(real(1.0) + s.slope, real(1e-6));
-    return max(min(filled, kept), least);
+    if (s.hard) return max(min(real(1.0625) * (value + radius) / -s.slope, kept), least);
+    real met = (value - real(0.5) * rules.hard * radius) / -s.slope;
+    if (met <= kept && !s.missed) return max(met, least);
+    return max(min(real(2.0) * value / (real(1.0) - s.slope), kept), least);
 }
 
 /// On the way to the point just asked, for steps from there.
@@ -151,12 +162,13 @@ EDGEWISE_FN ConeState coneTake(ConeRules rules, ConeState s, real value) {
         s.entry_t = coneEntry(rules, s);
         s.least = real(1.0);
         s.hard = false;
+        s.missed = false;
     }
     s.closed = s.open && !soft;
     if (soft) {
         s.least = min(s.least, share);
         if (!s.hard && share < rules.hard) {
-            s.hard_t = rules.backtrace ? min(s.safe_t, s.t) : s.t;
+            s.hard_t = rules.backtrace && !s.longer ? min(s.safe_t, s.t) : s.t;
             s.hard = true;
         }
     }
