@@ -7,15 +7,31 @@
 
 namespace edgewise {
 
-/// Whether a neighbour on the surface of that shade has another sight; its own pixel is one too.
+CellLights::CellLights(const sdf::RayGrid& grid, const sdf::FieldScene& scene, FieldTracer& device,
+                       const ConeRows& rows, const std::vector<EdgeCell>& cells)
+    : grid_(grid),
+      scene_(scene),
+      device_(device),
+      rows_(rows),
+      cells_(cells),
+      cell_of_(rows.cones.samples(), nullptr) {
+    for (const EdgeCell& cell : cells) cell_of_[cell.pixel] = &cell;
+}
+
+/// Whether the surface of that shade has another sight in a neighbour, or in the middle of the pixel.
 bool CellLights::seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const {
     const SurfacePlane plane = planeOf(&shades.hits[shade]);
-    const auto differs = [&](std::size_t j) {
-        const std::uint32_t other = shades.of_pixel[j];
+    const auto differs = [&](std::uint32_t other, const SurfacePlane& there, std::size_t j) {
         return other != kNoGroup && shades.sights[other] != shades.sights[shade] &&
-               smoothlyOne(plane, rows_.planes[j], rows_.radii[j]);
+               smoothlyOne(plane, there, rows_.radii[j]);
     };
-    return differs(pixel) || std::ranges::any_of(rows_.around(pixel), differs);
+    if (differs(shades.of_pixel[pixel], rows_.planes[pixel], pixel)) return true;
+    return std::ranges::any_of(rows_.around(pixel), [&](std::size_t j) {
+        if (differs(shades.of_pixel[j], rows_.planes[j], j)) return true;
+        return cell_of_[j] && std::ranges::any_of(cell_of_[j]->pieces, [&](const CellPiece& piece) {
+                   return piece.weight > 0.0 && differs(piece.shade, piece, j);
+               });
+    });
 }
 
 /// The standard locations that the piece has; else a place within it.
@@ -51,16 +67,14 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
 
 std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
                                                   std::vector<glm::dvec4>& colors) const {
-    std::vector<char> divided(rows_.cones.samples());
-    for (const EdgeCell& cell : cells_) divided[cell.pixel] = cell.pieces.front().weight < 1.0;
     std::vector<std::size_t> found;
     std::vector<LightCell> light_cells;
     for (const std::size_t i : rows_.zOrder(1)) {
         const std::uint32_t own = shades.of_pixel[i];
-        if (divided[i] || own == kNoGroup || !seesOther(shades, i, own)) continue;
+        if (divided(i) || own == kNoGroup || !seesOther(shades, i, own)) continue;
         found.push_back(i);
         light_cells.push_back(
-            {i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i, divided)});
+            {i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i)});
     }
     const std::vector<glm::dvec4> means = meansOver(grid_, device_, rows_, light_cells);
     for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = means[k];
@@ -69,8 +83,7 @@ std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
 
 /// The mean of whole neighbours that see the one other sight there is; none where patterns colour the
 /// surface.
-std::optional<glm::dvec4> CellLights::otherColor(const CellShades& shades, std::size_t pixel,
-                                                 const std::vector<char>& divided) const {
+std::optional<glm::dvec4> CellLights::otherColor(const CellShades& shades, std::size_t pixel) const {
     const std::uint32_t own = shades.of_pixel[pixel];
     const sdf::SurfaceMaterial& material = scene_.materials[shades.hits[own].material];
     if (shades.hits[own].color || material.pattern != sdf::SurfaceMaterial::Pattern::kNone)
@@ -80,7 +93,7 @@ std::optional<glm::dvec4> CellLights::otherColor(const CellShades& shades, std::
     std::optional<std::uint32_t> other;
     for (const std::size_t j : rows_.around(pixel)) {
         const std::uint32_t shade = shades.of_pixel[j];
-        if (divided[j] || shade == kNoGroup || shades.sights[shade] == shades.sights[own]) continue;
+        if (divided(j) || shade == kNoGroup || shades.sights[shade] == shades.sights[own]) continue;
         if (!smoothlyOne(rows_.planes[pixel], rows_.planes[j], rows_.radii[j])) continue;
         if (other && *other != shades.sights[shade]) return std::nullopt;
         other = shades.sights[shade], sum += shades.colors[shade], ++count;

@@ -9,8 +9,7 @@ class CellLights {
   public:
     /// Refers to its arguments.
     CellLights(const sdf::RayGrid& grid, const sdf::FieldScene& scene, FieldTracer& device,
-               const ConeRows& rows, const std::vector<EdgeCell>& cells)
-        : grid_(grid), scene_(scene), device_(device), rows_(rows), cells_(cells) {}
+               const ConeRows& rows, const std::vector<EdgeCell>& cells);
 
     /// Pieces of divided pixels: shaded at several places. How many.
     std::size_t averagePieces(CellShades& shades) const;
@@ -19,8 +18,10 @@ class CellLights {
 
   private:
     bool seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const;
-    std::optional<glm::dvec4> otherColor(const CellShades& shades, std::size_t pixel,
-                                         const std::vector<char>& divided) const;
+    std::optional<glm::dvec4> otherColor(const CellShades& shades, std::size_t pixel) const;
+    bool divided(std::size_t pixel) const {
+        return cell_of_[pixel] && cell_of_[pixel]->pieces.front().weight < 1.0;
+    }
     std::vector<glm::dvec2> placesOf(const EdgeCell& cell, int piece) const;
 
     const sdf::RayGrid& grid_;
@@ -28,6 +29,7 @@ class CellLights {
     FieldTracer& device_;
     const ConeRows& rows_;
     const std::vector<EdgeCell>& cells_;
+    std::vector<const EdgeCell*> cell_of_;  ///< a pixel's
 };
 
 }  // namespace edgewise
