@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
@@ -30,7 +32,7 @@ class ConeXTracer : public OverDevice {
                                                                 sdf::trustedSettings(scene_, settings.trace))
                            : nullptr),
           sampling_(grid_, *device_, field_.get()),
-          shading_(grid_, scene_, *device_) {}
+          shading_(grid_, scene_, *this) {}
 
     FieldSamples trace(const FieldWindow& window) override {
         FieldSamples out = FieldSamples::sized(window.samples());
@@ -41,6 +43,14 @@ class ConeXTracer : public OverDevice {
             y = std::max(end, y + 1);
         }
         return out;
+    }
+    /// Booked by the device.
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+                                  std::vector<std::uint32_t>* sights) override {
+        Stopwatch watch;
+        auto colors = device_->shade(rays, std::move(hits), sights);
+        shading_seconds_ += watch.lap();
+        return colors;
     }
     void report(MethodResult& result) const override {
         device_->report(result);
@@ -61,17 +71,20 @@ class ConeXTracer : public OverDevice {
         watch_.lap();
         std::vector<EdgeCell> cells = doubtfulCells(rows, grid_.t_max);
         sampling_.divide(rows, cells);
-        watch_.book("edges", stages_);
         CellShades shades = shading_.shade(rows, cells);
-        watch_.lap();
-        const CellLights lights(grid_, scene_, *device_, rows, cells);
+        book("edges");
+        const CellLights lights(grid_, scene_, *this, rows, cells);
         lit_pieces_ += lights.averagePieces(shades);
         std::vector<glm::dvec4> colors = blended(rows, cells, shades, background_);
         const std::vector<std::size_t> borders = lights.divideOthers(shades, colors);
-        watch_.book("lights", stages_);
+        book("lights");
         keep(window, rows, cells, borders, colors, out);
         if (keep_parts_) keepParts(window, rows, cells, shades, out);
-        watch_.book("blend", stages_);
+        book("blend");
+    }
+
+    void book(const std::string& stage) {
+        watch_.book(stage, stages_, std::exchange(shading_seconds_, 0.0));
     }
 
     /// A row's pixel in the window.
@@ -123,6 +136,7 @@ class ConeXTracer : public OverDevice {
     const CellShading shading_;
     Stopwatch watch_;
     std::vector<StageTime> stages_;
+    double shading_seconds_ = 0.0;  ///< since the last stage was booked
     std::uint64_t pixels_ = 0, doubtful_ = 0, complex_ = 0, counted_ = 0, lights_ = 0, lit_pieces_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // Wall time of a method's stages.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -20,9 +21,10 @@ class Stopwatch {
         return passed.count();
     }
 
-    /// Books the lap under a stage; a stage that comes again adds up.
-    void book(const std::string& stage, std::vector<StageTime>& stages) {
-        const double seconds = lap();
+    /// Books the lap under a stage, but for the seconds of it that others book; a stage that comes again adds
+    /// up.
+    void book(const std::string& stage, std::vector<StageTime>& stages, double of_others = 0.0) {
+        const double seconds = std::max(lap() - of_others, 0.0);
         for (StageTime& known : stages)
             if (known.name == stage) return void(known.seconds += seconds);
         stages.push_back({stage, seconds});
