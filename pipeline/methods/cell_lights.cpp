@@ -73,8 +73,7 @@ std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
         const std::uint32_t own = shades.of_pixel[i];
         if (divided(i) || own == kNoGroup || !seesOther(shades, i, own)) continue;
         found.push_back(i);
-        light_cells.push_back(
-            {i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i)});
+        light_cells.push_back({i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i)});
     }
     const std::vector<glm::dvec4> means = meansOver(grid_, device_, rows_, light_cells);
     for (std::size_t k = 0; k < found.size(); ++k) colors[found[k]] = means[k];

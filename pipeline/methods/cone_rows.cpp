@@ -57,8 +57,7 @@ std::uint32_t evenBits(std::uint32_t m) {
 }  // namespace
 
 std::vector<std::size_t> ConeRows::zOrder(std::size_t border) const {
-    const std::size_t right = width() - border,
-                      bottom = static_cast<std::size_t>(pixels.height()) - border;
+    const std::size_t right = width() - border, bottom = static_cast<std::size_t>(pixels.height()) - border;
     std::vector<std::size_t> order;
     for (std::size_t y0 = border; y0 < bottom; y0 += kSquare)
         for (std::size_t x0 = border; x0 < right; x0 += kSquare)

@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kNoGroup = 0xffffffffu;
 struct ConeRows {
     PixelBox pixels;  ///< with a margin of one
     FieldCones cones;
-    std::vector<std::uint32_t> hard;  ///< a pixel: the group that its ray meets, or kNoGroup
-    std::vector<char> soft;           ///< a group lies before that
+    std::vector<std::uint32_t> hard;   ///< a pixel: the group that its ray meets, or kNoGroup
+    std::vector<char> soft;            ///< a group lies before that
     std::vector<SurfacePlane> planes;  ///< what the pixel's ray meets
     std::vector<double> radii;         ///< a pixel's radius there
 

@@ -83,9 +83,7 @@ class ConeXTracer : public OverDevice {
         book("blend");
     }
 
-    void book(const std::string& stage) {
-        watch_.book(stage, stages_, std::exchange(shading_seconds_, 0.0));
-    }
+    void book(const std::string& stage) { watch_.book(stage, stages_, std::exchange(shading_seconds_, 0.0)); }
 
     /// A row's pixel in the window.
     static std::size_t inWindow(const FieldWindow& window, const ConeRows& rows, std::size_t i) {

@@ -30,8 +30,8 @@ double bendBetween(const SurfacePlane& a, const SurfacePlane& b);
 double offPlane(const SurfacePlane& plane, const glm::dvec3& p_world);
 
 struct CellPiece : SurfacePlane {
-    glm::dvec2 seen_px{0.0};  ///< where on the film it was met
-    double bend = 0.0;        ///< bendBetween(), as far as neighbours on the surface tell
+    glm::dvec2 seen_px{0.0};             ///< where on the film it was met
+    double bend = 0.0;                   ///< bendBetween(), as far as neighbours on the surface tell
     std::optional<sdf::SurfaceHit> hit;  ///< met within this pixel, along the ray through seen_px
     double weight = 0.0;                 ///< the area of its parts
     std::uint32_t shade = kUnshaded;     ///< of what is shaded: its place

@@ -32,9 +32,9 @@ const std::array<glm::dvec2, 4> kCorners{glm::dvec2(-0.5, -0.5), {0.5, -0.5}, {0
 
 /// A side of pixels that the border crosses.
 struct Side {
-    std::size_t owner;           ///< the pixel on whose plane it lies
-    glm::dvec2 from_px, to_px;   ///< upper or left one first
-    std::uint32_t from_sight;    ///< what that end sees, and the other does not
+    std::size_t owner;          ///< the pixel on whose plane it lies
+    glm::dvec2 from_px, to_px;  ///< upper or left one first
+    std::uint32_t from_sight;   ///< what that end sees, and the other does not
     glm::dvec2 middle() const { return 0.5 * (from_px + to_px); }
 };
 
@@ -105,8 +105,8 @@ class LightBorders {
     /// The first of some pixels, the upper left one first, that goes on from the pixel smoothly.
     std::size_t ownerOf(std::size_t pixel, std::initializer_list<std::size_t> around) const {
         for (const std::size_t j : around)
-            if (j == pixel || (rows_.hitOf(j) && smoothlyOne(rows_.planes[pixel], rows_.planes[j],
-                                                             rows_.radii[j])))
+            if (j == pixel ||
+                (rows_.hitOf(j) && smoothlyOne(rows_.planes[pixel], rows_.planes[j], rows_.radii[j])))
                 return j;
         return pixel;
     }
@@ -169,8 +169,8 @@ class LightBorders {
         const bool turned = k >= 2;
         const std::size_t first = turned ? (k + 1) % 4 : k, last = turned ? k : k + 1;
         const std::size_t owner = ownerOfSide(pixel, k);
-        const auto [at, fresh] =
-            known_sides_.try_emplace({2 * latticeOf(pixel, first) + k % 2, owner, sights[first]}, sides_.size());
+        const auto [at, fresh] = known_sides_.try_emplace(
+            {2 * latticeOf(pixel, first) + k % 2, owner, sights[first]}, sides_.size());
         if (fresh) sides_.push_back({owner, cornerOf(pixel, first), cornerOf(pixel, last), sights[first]});
         return at->second;
     }
