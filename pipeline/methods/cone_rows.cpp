@@ -10,27 +10,32 @@
 namespace edgewise {
 namespace {
 
-/// Neighbours that see other surfaces than the pixel does; `bend`: of its own, as the others tell.
-std::vector<std::size_t> strangersOf(const ConeRows& rows, std::size_t i, double& bend) {
-    const SurfacePlane& own = rows.planes[i];
+/// Neighbours that see other surfaces than the pixel does.
+std::vector<std::size_t> strangersOf(const ConeRows& rows, std::size_t i) {
     std::vector<std::size_t> strangers;
     for (const std::size_t j : rows.around(i))
-        if (smoothlyOne(own, rows.planes[j], std::max(rows.radii[i], rows.radii[j])))
-            bend = std::max(bend, bendBetween(own, rows.planes[j]));
-        else
+        if (!smoothlyOne(rows.planes[i], rows.planes[j], std::max(rows.radii[i], rows.radii[j])))
             strangers.push_back(j);
     return strangers;
 }
 
-std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i, double t_max) {
+/// Of the pixel's surface, as its other neighbours tell.
+double bendOf(const ConeRows& rows, std::size_t i, const std::vector<std::size_t>& strangers) {
     double bend = 0.0;
-    const std::vector<std::size_t> strangers = strangersOf(rows, i, bend);
+    for (const std::size_t j : rows.around(i))
+        if (std::ranges::find(strangers, j) == strangers.end())
+            bend = std::max(bend, bendBetween(rows.planes[i], rows.planes[j]));
+    return bend;
+}
+
+std::optional<EdgeCell> doubtfulCell(const ConeRows& rows, std::size_t i, double t_max) {
+    const std::vector<std::size_t> strangers = strangersOf(rows, i);
     if (!rows.soft[i] && strangers.empty()) return std::nullopt;
     const sdf::SurfaceHit* own = rows.hitOf(i);
     EdgeCell cell;
     cell.pixel = i, cell.centre_px = rows.centreOf(i), cell.sign = rows.cones.rays[i].sign;
     cell.pieces.push_back(pieceOf(rows.planes[i], cell.centre_px));
-    cell.pieces.front().bend = bend;
+    cell.pieces.front().bend = bendOf(rows, i, strangers);
     if (own) cell.pieces.front().hit = *own;
     cell.depths[0] = own ? own->t : HUGE_VAL;
     cell.t_start = rows.startOf(i, t_max);
