@@ -66,6 +66,7 @@ struct FieldCones {
     std::vector<std::uint32_t> begin, evaluations;
     std::vector<sdf::ConeGroup> groups;
     std::vector<sdf::SurfaceHit> surfaces;  ///< where each group is shaded; see ConeSettings::hard_only
+    std::vector<glm::dvec4> colors;         ///< of each group, by ConeSettings::shade_at_once; else none
     std::size_t samples() const { return rays.size(); }
 };
 

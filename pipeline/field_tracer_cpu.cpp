@@ -83,7 +83,11 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         std::vector<TileCones> tiles = coneTiles(window);
         checkCancelled(in_.progress);
         FieldCones out = joined(window, tiles);
-        tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) { describe(tiles[i], out); });
+        if (cones_.shade_at_once) out.colors.resize(out.groups.size());
+        tbb::enumerable_thread_specific<sdf::RayCounts> counts;
+        tbb::parallel_for(std::size_t(0), tiles.size(),
+                          [&](std::size_t i) { describe(tiles[i], out, counts.local()); });
+        for (const sdf::RayCounts& part : counts) ray_counts_ += part;
         watch_.book("trace", stages_);
         return out;
     }
@@ -275,7 +279,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         return out;
     }
 
-    void describe(const TileCones& tile, FieldCones& out) const {
+    void describe(const TileCones& tile, FieldCones& out, sdf::RayCounts& counts) const {
         const sdf::ConeGroup* group = tile.groups.data();
         for (std::size_t k = 0; k < tile.samples.size(); ++k) {
             const std::uint32_t sample = tile.samples[k];
@@ -285,6 +289,8 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
                 const sdf::TraceHit hit{sdf::TraceEnd::kSurface, group->t, NAN,
                                         out.evaluations[sample], 0,        0};
                 out.surfaces[i] = tracer_.fieldHit(out.rays[sample].ray, hit, sign_);
+                if (!out.colors.empty())
+                    out.colors[i] = shader_.shade(out.rays[sample].ray, out.surfaces[i], counts, sign_);
             }
         }
     }

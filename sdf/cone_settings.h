@@ -14,8 +14,8 @@ struct ConeSettings {
     bool normalize_sky =
         false;               ///< as printed: divided by the samples' weights; else the sky is the last sample
     bool hard_only = false;  ///< only the groups that the ray itself meets have their surfaces described
-    /// As printed, within the loop; else when it has ended. The picture is the same. Vulkan pauses at every
-    /// group for it, but all is shaded in the end.
+    /// As printed: groups are shaded as they are met, seen or not; Vulkan's cones pause for it. Else those
+    /// that are seen, when all are met. The picture is the same.
     bool shade_at_once = false;
 };
 

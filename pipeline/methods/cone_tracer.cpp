@@ -67,15 +67,21 @@ class ConeTracer : public OverDevice {
         watch_.lap();
         Seen seen = seenOf(cones, part.stride());
         watch_.book("masks", stages_);
-        const std::vector<glm::dvec4> colors = device_->shade(seen.rays, std::move(seen.surfaces));
+        const std::vector<glm::dvec4> by_group = settings_.shade_at_once ? cones.colors : shaded(cones, seen);
         watch_.lap();
-        std::vector<glm::dvec4> by_group(cones.groups.size());
-        for (std::size_t i = 0; i < seen.group.size(); ++i) by_group[seen.group[i]] = colors[i];
         tbb::parallel_for(std::size_t(0), cones.samples(),
                           [&](std::size_t i) { blend(cones, seen.bits, by_group, i, before + i, out); });
         groups_ += cones.groups.size(), seen_ += seen.group.size();
         for (std::size_t i = 0; i < cones.samples(); ++i) mixed_ += out.mixed[before + i];
         watch_.book("blend", stages_);
+    }
+
+    /// Of all groups; of unseen ones nothing.
+    std::vector<glm::dvec4> shaded(const FieldCones& cones, Seen& seen) {
+        const std::vector<glm::dvec4> colors = device_->shade(seen.rays, std::move(seen.surfaces));
+        std::vector<glm::dvec4> by_group(cones.groups.size());
+        for (std::size_t i = 0; i < seen.group.size(); ++i) by_group[seen.group[i]] = colors[i];
+        return by_group;
     }
 
     Seen seenOf(const FieldCones& cones, std::size_t stride) const {

@@ -11,9 +11,12 @@ namespace edgewise::vulkan {
 class ConeBands {
   public:
     /// Refers to its arguments. `most`: rays at once. `sign`: of the field at the rays' beginnings; 0: it is
-    /// found there. `map`: the field is raw GLSL.
+    /// found there. `map`: the field is raw GLSL. `shade`: called for groups as cones pause at them, and in
+    /// the end for the last ones, by ConeSettings::shade_at_once.
+    using Shade = std::function<std::vector<glm::dvec4>(const std::vector<sdf::TravellingRay>& rays,
+                                                        const std::vector<sdf::SurfaceHit>& hits)>;
     ConeBands(const sdf::RayGrid& grid, FieldBatches& batches, ConeRays& cones, std::size_t most, double sign,
-              bool map, std::function<bool()> cancelled);
+              bool map, std::function<bool()> cancelled, Shade shade);
 
     FieldCones trace(const FieldWindow& window);
 
@@ -22,7 +25,11 @@ class ConeBands {
     struct Band {
         std::size_t first, last, stride;
         std::vector<sdf::TravellingRay> rays;
-        std::vector<std::vector<sdf::ConeGroup>> taken;  ///< by ray; empty where none has had many
+        struct Taken {
+            sdf::ConeGroup group;
+            glm::dvec4 color{0.0};  ///< if it is shaded at once
+        };
+        std::vector<std::vector<Taken>> taken;  ///< by ray; empty where none has had many
         std::size_t samples() const { return (last - first) * stride; }
         static constexpr std::size_t kNone = ~std::size_t{0};
         std::size_t sampleOf(std::size_t ray) const;  ///< kNone: beyond the window
@@ -31,9 +38,12 @@ class ConeBands {
         }
     };
     void traceBand(Band& band);
-    void takeFull(Band& band) const;
+    void takeFull(Band& band);
+    void shadeTaken(Band& band, const std::vector<std::size_t>& rays);
+    void shadeLast(const Band& band, FieldCones& out, std::size_t first_sample);
+    sdf::TravellingRay signedRay(const Band& band, std::size_t ray, const GpuConeState& state) const;
     void add(Band& band, FieldCones& out);
-    void takeGroups(const Band& band, std::size_t ray, sdf::ConeGroup* to) const;
+    void takeGroups(const Band& band, std::size_t ray, std::size_t first, FieldCones& out) const;
     void describeMap(FieldCones& out, std::size_t first_sample, std::size_t first_group);
 
     const sdf::RayGrid& grid_;
@@ -44,6 +54,7 @@ class ConeBands {
     double sign_;
     bool map_;
     std::function<bool()> cancelled_;
+    Shade shade_;
 };
 
 }  // namespace edgewise::vulkan

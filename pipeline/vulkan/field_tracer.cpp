@@ -122,8 +122,12 @@ class VulkanFieldTracer : public FieldTracer {
         cone_rays_.emplace(*device_, shaders_, *cones_, *tiles_);
         const std::size_t most =
             ConeRays::most(*device_, shaders_, *cones_, (input_.options.memory_mib << 20) / 16);
-        cone_bands_.emplace(grid_, *batches_, *cone_rays_, most, sign_, scene_.glsl.has_value(),
-                            [this] { return input_.progress.cancelled(); });
+        cone_bands_.emplace(
+            grid_, *batches_, *cone_rays_, most, sign_, scene_.glsl.has_value(),
+            [this] { return input_.progress.cancelled(); },
+            [this](const std::vector<sdf::TravellingRay>& rays, const std::vector<sdf::SurfaceHit>& hits) {
+                return shadeWavefront(shader_, *batches_, rays, hits, secondary_);
+            });
     }
     FieldCones emptyCones(const FieldWindow& window) const {
         FieldCones out;

@@ -188,6 +188,29 @@ TEST_F(ConesOnDevice, OfRawGlslAreATreesOfTheSameSolid) {
                        found.complex, "ball");
 }
 
+/// Colours of samples beyond a quarter of 8 bits.
+std::size_t countDifferent(const FieldSamples& a, const FieldSamples& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.color.size(); ++i)
+        count += !(glm::length(a.color[i] - b.color[i]) <= 0.25 / 255.0);
+    return count;
+}
+
+/// Groups shaded as they are met: more of them, and the same picture. On the device shadows' rays have other
+/// neighbours, and a tile's first step with them: borders of light move by what hits are off.
+TEST_F(ConesOnDevice, ShadeAtOnceTheSamePicture) {
+    for (const char* name : {"thin", "spheres-50"}) {
+        Picture picture(loadScene(findScene(name)));
+        const FieldSamples cpu = picture.samples(makeCpuFieldTracer),
+                           gpu = picture.samples(makeVulkanFieldTracer);
+        picture.settings.cones->shade_at_once = true;
+        EXPECT_EQ(picture.samples(makeCpuFieldTracer).color, cpu.color) << name;
+        const std::size_t differ = countDifferent(picture.samples(makeVulkanFieldTracer), gpu);
+        fmt::print("{}: {} of {} samples differ on the device\n", name, differ, gpu.color.size());
+        EXPECT_LE(differ, gpu.color.size() / 200) << name;
+    }
+}
+
 /// Cones that pause at every group, and go on.
 TEST_F(ConesOnDevice, InRoundsAreTheSameBits) {
     for (const char* name : {"thin", "spheres-50"}) {
