@@ -79,7 +79,7 @@ class FieldTracer {
     /// Linear colours of rays whose hits are known, as trace() gives them; sights as shadeWavefront() says.
     /// Neighbours should be near each other.
     virtual std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
-                                          std::vector<sdf::SurfaceHit> hits,
+                                          std::span<const sdf::SurfaceHit> hits,
                                           std::vector<std::uint32_t>* sights = nullptr) = 0;
     /// Any other rays through the same scene.
     virtual RayBatches& batches() = 0;

@@ -92,7 +92,8 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
         return out;
     }
 
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::span<const sdf::SurfaceHit> hits,
                                   std::vector<std::uint32_t>* sights) override {
         watch_.lap();
         std::vector<glm::dvec4> colors(rays.size());

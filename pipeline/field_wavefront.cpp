@@ -45,7 +45,9 @@ class ShadowAnswers : public sdf::SurfaceTracer {
 struct Generation {
     std::vector<Shader::Branch> branches;
     std::vector<std::uint32_t> owners;
-    std::vector<SurfaceHit> hits;
+    std::span<const SurfaceHit> hits;  ///< the first rays', by owner; later ones', by branch
+    std::vector<SurfaceHit> kept;      ///< the later ones'
+    const SurfaceHit& hitOf(std::size_t i) const { return kept.empty() ? hits[owners[i]] : kept[i]; }
 };
 
 /// Neighbours in a generation, followed by one thread.
@@ -97,7 +99,8 @@ class Wavefront {
             sums_[g.owners[i]] += glm::dvec4(sent[i], 0.0);
             if (!sights_) continue;
             std::uint32_t& sight = (*sights_)[g.owners[i]];
-            sight = sightWith(sightWith(sight, sight_of_[i]), g.hits[i].hit ? g.hits[i].material + 1 : 0);
+            const SurfaceHit& hit = g.hitOf(i);
+            sight = sightWith(sightWith(sight, sight_of_[i]), hit.hit ? hit.material + 1 : 0);
         }
         return nextOf(parts);
     }
@@ -111,8 +114,8 @@ class Wavefront {
     void ask(const Generation& g, Part& part) const {
         RayCounts unused;
         for (std::size_t i = part.first; i < part.last; ++i) {
-            if (!g.hits[i].hit) continue;
-            shader_.follow(g.branches[i], g.hits[i], part.shadows, part.next, unused);
+            if (!g.hitOf(i).hit) continue;
+            shader_.follow(g.branches[i], g.hitOf(i), part.shadows, part.next, unused);
             part.next_owners.resize(part.next.size(), g.owners[i]);
         }
     }
@@ -120,7 +123,7 @@ class Wavefront {
         std::vector<Shader::Branch> unused;
         for (std::size_t i = part.first; i < part.last; ++i) {
             unused.clear();
-            sent[i] = g.hits[i].hit ? shader_.follow(g.branches[i], g.hits[i], shadows, unused, part.counts)
+            sent[i] = g.hitOf(i).hit ? shader_.follow(g.branches[i], g.hitOf(i), shadows, unused, part.counts)
                                     : g.branches[i].share * shader_.settings().background;
             sight_of_[i] = shadows.takeSight();
         }
@@ -136,7 +139,7 @@ class Wavefront {
         std::vector<TravellingRay> rays;
         rays.reserve(next.branches.size());
         for (const Shader::Branch& branch : next.branches) rays.push_back(branch.way);
-        if (!rays.empty()) next.hits = batches_.nearest(rays);
+        if (!rays.empty()) next.kept = batches_.nearest(rays);
         return next;
     }
 
@@ -151,20 +154,23 @@ class Wavefront {
 }  // namespace
 
 std::vector<glm::dvec4> shadeWavefront(const Shader& shader, RayBatches& batches,
-                                       std::span<const TravellingRay> rays, std::vector<SurfaceHit> hits,
+                                       std::span<const TravellingRay> rays, std::span<const SurfaceHit> hits,
                                        RayCounts& counts, std::vector<std::uint32_t>* sights) {
     if (sights) sights->assign(rays.size(), 0u);
     std::vector<glm::dvec4> sums(rays.size(), glm::dvec4(shader.settings().background, 0.0));
     Generation g;
+    g.hits = hits;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].hit) continue;
         sums[i] = {0.0, 0.0, 0.0, 1.0};
-        Shader::Branch branch = shader.first(rays[i].ray, rays[i].sign);
-        branch.way = rays[i];
-        g.branches.push_back(branch);
         g.owners.push_back(static_cast<std::uint32_t>(i));
-        g.hits.push_back(hits[i]);
     }
+    g.branches.resize(g.owners.size());
+    tbb::parallel_for(std::size_t(0), g.owners.size(), [&](std::size_t i) {
+        const TravellingRay& ray = rays[g.owners[i]];
+        g.branches[i] = shader.first(ray.ray, ray.sign);
+        g.branches[i].way = ray;
+    });
     Wavefront wavefront(shader, batches, sums, counts, sights);
     while (!g.branches.empty()) g = wavefront.follow(g);
     return sums;

@@ -30,7 +30,7 @@ class RayBatches {
 /// lights and materials in the same order, have the same number here; one a ray.
 std::vector<glm::dvec4> shadeWavefront(const sdf::Shader& shader, RayBatches& batches,
                                        std::span<const sdf::TravellingRay> rays,
-                                       std::vector<sdf::SurfaceHit> hits, sdf::RayCounts& counts,
+                                       std::span<const sdf::SurfaceHit> hits, sdf::RayCounts& counts,
                                        std::vector<std::uint32_t>* sights = nullptr);
 
 /// A sight with one answer more.

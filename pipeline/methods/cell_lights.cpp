@@ -1,5 +1,7 @@
 #include "pipeline/methods/cell_lights.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "pipeline/methods/light_borders.h"
@@ -19,8 +21,8 @@ CellLights::CellLights(const sdf::RayGrid& grid, const sdf::FieldScene& scene, F
 }
 
 /// Whether the surface of that shade has another sight in a neighbour, or in the middle of the pixel.
-bool CellLights::seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const {
-    const SurfacePlane plane = planeOf(&shades.hits[shade]);
+bool CellLights::seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade,
+                           const SurfacePlane& plane) const {
     const auto differs = [&](std::uint32_t other, const SurfacePlane& there, std::size_t j) {
         return other != kNoGroup && shades.sights[other] != shades.sights[shade] &&
                smoothlyOne(plane, there, rows_.radii[j]);
@@ -56,7 +58,7 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
         for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
             const CellPiece& piece = cell.pieces[k];
             if (!(piece.weight > 0.0 && piece.weight < 1.0) || piece.shade == kNoGroup) continue;
-            if (!seesOther(shades, cell.pixel, piece.shade)) continue;
+            if (!seesOther(shades, cell.pixel, piece.shade, piece)) continue;
             lit.push_back({cell.sign, shades.hits[piece.shade], placesOf(cell, static_cast<int>(k))});
             of.push_back(piece.shade);
         }
@@ -67,12 +69,22 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
 
 std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
                                                   std::vector<glm::dvec4>& colors) const {
+    constexpr std::size_t kPart = 1024;
+    const std::vector<std::size_t> order = rows_.zOrder(1);
+    std::vector<std::vector<std::size_t>> parts((order.size() + kPart - 1) / kPart);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
+        for (std::size_t k = p * kPart; k < std::min(order.size(), (p + 1) * kPart); ++k) {
+            const std::size_t i = order[k];
+            const std::uint32_t own = shades.of_pixel[i];
+            if (!divided(i) && own != kNoGroup && seesOther(shades, i, own, rows_.planes[i]))
+                parts[p].push_back(i);
+        }
+    });
     std::vector<std::size_t> found;
+    for (const std::vector<std::size_t>& part : parts) found.insert(found.end(), part.begin(), part.end());
     std::vector<LightCell> light_cells;
-    for (const std::size_t i : rows_.zOrder(1)) {
+    for (const std::size_t i : found) {
         const std::uint32_t own = shades.of_pixel[i];
-        if (divided(i) || own == kNoGroup || !seesOther(shades, i, own)) continue;
-        found.push_back(i);
         light_cells.push_back({i, shades.hits[own], colors[i], shades.sights[own], otherColor(shades, i)});
     }
     const std::vector<glm::dvec4> means = meansOver(grid_, device_, rows_, light_cells);

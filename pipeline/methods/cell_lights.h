@@ -17,7 +17,8 @@ class CellLights {
     std::vector<std::size_t> divideOthers(const CellShades& shades, std::vector<glm::dvec4>& colors) const;
 
   private:
-    bool seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade) const;
+    bool seesOther(const CellShades& shades, std::size_t pixel, std::uint32_t shade,
+                   const SurfacePlane& plane) const;
     std::optional<glm::dvec4> otherColor(const CellShades& shades, std::size_t pixel) const;
     bool divided(std::size_t pixel) const {
         return cell_of_[pixel] && cell_of_[pixel]->pieces.front().weight < 1.0;

@@ -11,12 +11,10 @@
 
 namespace edgewise {
 
-CellShades CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells) const {
+void CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells, CellShades& shades) const {
     meetPieces(cells);
-    CellShades shades;
     collect(rows, cells, shades);
     shades.colors = device_.shade(shades.rays, shades.hits, &shades.sights);
-    return shades;
 }
 
 /// In Z-order, a pixel's pieces after its own hit.
@@ -114,7 +112,8 @@ std::vector<glm::dvec4> blended(const ConeRows& rows, const std::vector<EdgeCell
         return shade == kNoGroup ? background : shades.colors[shade];
     };
     std::vector<glm::dvec4> colors(rows.cones.samples());
-    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = colorOf(shades.of_pixel[i]);
+    tbb::parallel_for(std::size_t(0), colors.size(),
+                      [&](std::size_t i) { colors[i] = colorOf(shades.of_pixel[i]); });
     for (const EdgeCell& cell : cells) {
         glm::dvec4 sum(0.0);
         for (const CellPiece& piece : cell.pieces)

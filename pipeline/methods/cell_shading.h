@@ -22,7 +22,8 @@ class CellShading {
         : grid_(grid), scene_(scene), device_(device) {}
 
     /// Every pixel's hit and every piece at one place, patterns averaged. Gives the pieces their places.
-    CellShades shade(const ConeRows& rows, std::vector<EdgeCell>& cells) const;
+    /// `shades`: what it holds is forgotten, its memory is used again.
+    void shade(const ConeRows& rows, std::vector<EdgeCell>& cells, CellShades& shades) const;
 
   private:
     void meetPieces(std::vector<EdgeCell>& cells) const;

@@ -78,7 +78,7 @@ class ConeTracer : public OverDevice {
 
     /// Of all groups; of unseen ones nothing.
     std::vector<glm::dvec4> shaded(const FieldCones& cones, Seen& seen) {
-        const std::vector<glm::dvec4> colors = device_->shade(seen.rays, std::move(seen.surfaces));
+        const std::vector<glm::dvec4> colors = device_->shade(seen.rays, seen.surfaces);
         std::vector<glm::dvec4> by_group(cones.groups.size());
         for (std::size_t i = 0; i < seen.group.size(); ++i) by_group[seen.group[i]] = colors[i];
         return by_group;

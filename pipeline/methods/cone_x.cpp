@@ -1,5 +1,7 @@
 #include "pipeline/methods/cone_x.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -45,10 +47,11 @@ class ConeXTracer : public OverDevice {
         return out;
     }
     /// Booked by the device.
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::span<const sdf::SurfaceHit> hits,
                                   std::vector<std::uint32_t>* sights) override {
         Stopwatch watch;
-        auto colors = device_->shade(rays, std::move(hits), sights);
+        auto colors = device_->shade(rays, hits, sights);
         shading_seconds_ += watch.lap();
         return colors;
     }
@@ -71,15 +74,15 @@ class ConeXTracer : public OverDevice {
         watch_.lap();
         std::vector<EdgeCell> cells = doubtfulCells(rows, grid_.t_max);
         sampling_.divide(rows, cells);
-        CellShades shades = shading_.shade(rows, cells);
+        shading_.shade(rows, cells, shades_);
         book("edges");
         const CellLights lights(grid_, scene_, *this, rows, cells);
-        lit_pieces_ += lights.averagePieces(shades);
-        std::vector<glm::dvec4> colors = blended(rows, cells, shades, background_);
-        const std::vector<std::size_t> borders = lights.divideOthers(shades, colors);
+        lit_pieces_ += lights.averagePieces(shades_);
+        std::vector<glm::dvec4> colors = blended(rows, cells, shades_, background_);
+        const std::vector<std::size_t> borders = lights.divideOthers(shades_, colors);
         book("lights");
         keep(window, rows, cells, borders, colors, out);
-        if (keep_parts_) keepParts(window, rows, cells, shades, out);
+        if (keep_parts_) keepParts(window, rows, cells, out);
         book("blend");
     }
 
@@ -95,14 +98,16 @@ class ConeXTracer : public OverDevice {
               const std::vector<std::size_t>& borders, const std::vector<glm::dvec4>& colors,
               FieldSamples& out) {
         const auto to = [&](std::size_t i) { return inWindow(window, rows, i); };
-        for (std::size_t y = 1; y + 1 < static_cast<std::size_t>(rows.pixels.height()); ++y)
+        const std::size_t height = static_cast<std::size_t>(rows.pixels.height()) - 2;
+        tbb::parallel_for(std::size_t(1), height + 1, [&](std::size_t y) {
             for (std::size_t x = 1; x + 1 < rows.width(); ++x) {
                 const std::size_t i = y * rows.width() + x, k = to(i);
                 out.color[k] = colors[i];
                 out.evaluations[k] = out.iterations[k] = rows.cones.evaluations[i];
-                ++pixels_;
                 if (const sdf::SurfaceHit* hit = rows.hitOf(i)) out.take(k, rows.cones.rays[i].ray, *hit);
             }
+        });
+        pixels_ += height * (rows.width() - 2);
         doubtful_ += cells.size();
         for (const EdgeCell& cell : cells) {
             counted_ += cell.counted;
@@ -113,13 +118,13 @@ class ConeXTracer : public OverDevice {
     }
 
     void keepParts(const FieldWindow& window, const ConeRows& rows, const std::vector<EdgeCell>& cells,
-                   const CellShades& shades, FieldSamples& out) const {
+                   FieldSamples& out) const {
         for (const EdgeCell& cell : cells) {
             if (!(cell.pieces.front().weight < 1.0)) continue;
             for (const CellPart& part : cell.parts) {
                 const std::uint32_t shade = cell.pieces[static_cast<std::size_t>(part.piece)].shade;
                 out.parts.push_back({inWindow(window, rows, cell.pixel), part.share, part.polygon_px,
-                                     shade == kNoGroup ? background_ : shades.colors[shade]});
+                                     shade == kNoGroup ? background_ : shades_.colors[shade]});
             }
         }
     }
@@ -132,6 +137,7 @@ class ConeXTracer : public OverDevice {
     const std::unique_ptr<const sdf::SceneTracer> field_;
     CellSampling sampling_;
     const CellShading shading_;
+    CellShades shades_;  ///< of the rows at hand
     Stopwatch watch_;
     std::vector<StageTime> stages_;
     double shading_seconds_ = 0.0;  ///< since the last stage was booked

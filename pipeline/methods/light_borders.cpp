@@ -83,7 +83,7 @@ class LightBorders {
             hits[i] = onPlane(*places[i].hit, rays[i].ray);
         });
         std::vector<std::uint32_t> sights;
-        const std::vector<glm::dvec4> colors = tracer_.shade(rays, std::move(hits), &sights);
+        const std::vector<glm::dvec4> colors = tracer_.shade(rays, hits, &sights);
         std::vector<Seen> seen(places.size());
         for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {colors[i], sights[i]};
         return seen;
@@ -250,7 +250,7 @@ std::vector<glm::dvec4> meansAt(const sdf::RayGrid& grid, FieldTracer& tracer,
             hits.push_back(onPlane(piece.hit, rays.back().ray));
         }
     if (rays.empty()) return {};
-    const std::vector<glm::dvec4> colors = tracer.shade(rays, std::move(hits));
+    const std::vector<glm::dvec4> colors = tracer.shade(rays, hits);
     std::vector<glm::dvec4> means;
     const glm::dvec4* color = colors.data();
     for (const LitPiece& piece : pieces) {

@@ -12,9 +12,10 @@ namespace edgewise {
 class OverDevice : public FieldTracer {
   public:
     FieldCones traceCones(const FieldWindow& window) override { return device_->traceCones(window); }
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::span<const sdf::SurfaceHit> hits,
                                   std::vector<std::uint32_t>* sights) override {
-        return device_->shade(rays, std::move(hits), sights);
+        return device_->shade(rays, hits, sights);
     }
     RayBatches& batches() override { return device_->batches(); }
 

@@ -80,11 +80,12 @@ class VulkanFieldTracer : public FieldTracer {
         });
     }
 
-    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays, std::vector<sdf::SurfaceHit> hits,
+    std::vector<glm::dvec4> shade(std::span<const sdf::TravellingRay> rays,
+                                  std::span<const sdf::SurfaceHit> hits,
                                   std::vector<std::uint32_t>* sights) override {
         return withDeviceErrors([&] {
             const auto start = std::chrono::steady_clock::now();
-            auto colors = shadeWavefront(shader_, *batches_, rays, std::move(hits), secondary_, sights);
+            auto colors = shadeWavefront(shader_, *batches_, rays, hits, secondary_, sights);
             seconds_ += secondsSince(start);
             return colors;
         });
