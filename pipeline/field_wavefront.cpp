@@ -124,7 +124,7 @@ class Wavefront {
         for (std::size_t i = part.first; i < part.last; ++i) {
             unused.clear();
             sent[i] = g.hitOf(i).hit ? shader_.follow(g.branches[i], g.hitOf(i), shadows, unused, part.counts)
-                                    : g.branches[i].share * shader_.settings().background;
+                                     : g.branches[i].share * shader_.settings().background;
             sight_of_[i] = shadows.takeSight();
         }
     }
