@@ -55,7 +55,7 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
     std::vector<LitPiece> lit;
     std::vector<std::uint32_t> of;
     for (const EdgeCell& cell : cells_)
-        for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
+        for (std::size_t k = 0; rows_.inside(cell.pixel) && k < cell.pieces.size(); ++k) {
             const CellPiece& piece = cell.pieces[k];
             if (!(piece.weight > 0.0 && piece.weight < 1.0) || piece.shade == kNoGroup) continue;
             if (!seesOther(shades, cell.pixel, piece.shade, piece)) continue;
@@ -70,7 +70,7 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
 std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
                                                   std::vector<glm::dvec4>& colors) const {
     constexpr std::size_t kPart = 1024;
-    const std::vector<std::size_t> order = rows_.zOrder(1);
+    const std::vector<std::size_t> order = rows_.zOrder(ConeRows::kMargin);
     std::vector<std::vector<std::size_t>> parts((order.size() + kPart - 1) / kPart);
     tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
         for (std::size_t k = p * kPart; k < std::min(order.size(), (p + 1) * kPart); ++k) {

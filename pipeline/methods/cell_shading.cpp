@@ -23,7 +23,7 @@ void CellShading::collect(const ConeRows& rows, std::vector<EdgeCell>& cells, Ce
     shades.of_pixel.assign(rows.cones.samples(), kNoGroup);
     std::vector<EdgeCell*> cell_of(rows.cones.samples(), nullptr);
     for (EdgeCell& cell : cells) cell_of[cell.pixel] = &cell;
-    const std::vector<std::size_t> order = rows.zOrder(0);
+    const std::vector<std::size_t> order = rows.zOrder(1);
     const auto eachOf = [&](std::size_t part, const auto& visit) {
         for (std::size_t k = part * kPart; k < std::min(order.size(), (part + 1) * kPart); ++k)
             eachShaded(rows, order[k], cell_of[order[k]], visit);

@@ -73,7 +73,9 @@ std::vector<std::size_t> ConeRows::zOrder(std::size_t border) const {
     return order;
 }
 
-ConeRows coneRows(FieldTracer& device, const PixelBox& pixels) {
+ConeRows coneRows(FieldTracer& device, const PixelBox& box) {
+    constexpr int m = ConeRows::kMargin;
+    const PixelBox pixels{box.x0 - m, box.y0 - m, box.x1 + m, box.y1 + m};
     ConeRows rows;
     rows.pixels = pixels;
     FieldWindow window;

@@ -11,9 +11,11 @@ namespace edgewise {
 
 inline constexpr std::uint32_t kNoGroup = 0xffffffffu;
 
-/// The cones of some rows and all around them.
+/// The cones of some rows and all around them. What a pixel shows is told by its neighbours' pieces too, and
+/// those by theirs.
 struct ConeRows {
-    PixelBox pixels;  ///< with a margin of one
+    static constexpr int kMargin = 2;
+    PixelBox pixels;  ///< with the margin
     FieldCones cones;
     std::vector<std::uint32_t> hard;   ///< a pixel: the group that its ray meets, or kNoGroup
     std::vector<char> soft;            ///< a group lies before that
@@ -38,18 +40,24 @@ struct ConeRows {
     }
     /// Pixels but for a border of that width, near ones near each other: their rays travel together.
     std::vector<std::size_t> zOrder(std::size_t border) const;
-    /// The eight neighbours of a pixel that is not in the margin.
+    /// Not in the margin.
+    bool inside(std::size_t pixel) const {
+        const std::size_t x = pixel % width(), y = pixel / width(),
+                          height = static_cast<std::size_t>(pixels.height());
+        return x >= kMargin && x + kMargin < width() && y >= kMargin && y + kMargin < height;
+    }
+    /// The eight neighbours of a pixel that is not on the border.
     std::array<std::size_t, 8> around(std::size_t i) const {
         const std::size_t w = width();
         return {i - w - 1, i - w, i - w + 1, i - 1, i + 1, i + w - 1, i + w, i + w + 1};
     }
 };
 
-/// Of the pixels, which have a margin.
-ConeRows coneRows(FieldTracer& device, const PixelBox& pixels);
+/// Of some pixels and the margin around them.
+ConeRows coneRows(FieldTracer& device, const PixelBox& box);
 
-/// Pixels, without the margin, that something but one smooth surface may lie in: a solid that their ray
-/// misses, or what neighbours see.
+/// Pixels, but for those on the border, that something but one smooth surface may lie in: a solid that their
+/// ray misses, or what neighbours see.
 std::vector<EdgeCell> doubtfulCells(const ConeRows& rows, double t_max);
 
 }  // namespace edgewise

@@ -18,8 +18,9 @@
 namespace edgewise {
 namespace {
 
-/// Rows whose cones are held at once, beside one above and one below.
+/// Rows whose cones are held at once, beside the margin.
 constexpr int kRowsAtOnce = 128;
+constexpr std::size_t kMargin = ConeRows::kMargin;
 
 class ConeXTracer : public OverDevice {
   public:
@@ -69,8 +70,7 @@ class ConeXTracer : public OverDevice {
     bool hasTree() const { return !scene_.glsl && !scene_.tree.empty(); }
 
     void traceRows(const FieldWindow& window, int y0, int y1, FieldSamples& out) {
-        const ConeRows rows =
-            coneRows(*device_, {window.pixels.x0 - 1, y0 - 1, window.pixels.x1 + 1, y1 + 1});
+        const ConeRows rows = coneRows(*device_, {window.pixels.x0, y0, window.pixels.x1, y1});
         watch_.lap();
         std::vector<EdgeCell> cells = doubtfulCells(rows, grid_.t_max);
         sampling_.divide(rows, cells);
@@ -90,26 +90,29 @@ class ConeXTracer : public OverDevice {
 
     /// A row's pixel in the window.
     static std::size_t inWindow(const FieldWindow& window, const ConeRows& rows, std::size_t i) {
-        const std::size_t x = i % rows.width() - 1, y = i / rows.width() - 1;
-        return (y + static_cast<std::size_t>(rows.pixels.y0 + 1 - window.pixels.y0)) * window.stride() + x;
+        const std::size_t x = i % rows.width() - kMargin, y = i / rows.width() - kMargin,
+                          first =
+                              static_cast<std::size_t>(rows.pixels.y0 + ConeRows::kMargin - window.pixels.y0);
+        return (first + y) * window.stride() + x;
     }
 
     void keep(const FieldWindow& window, const ConeRows& rows, const std::vector<EdgeCell>& cells,
               const std::vector<std::size_t>& borders, const std::vector<glm::dvec4>& colors,
               FieldSamples& out) {
         const auto to = [&](std::size_t i) { return inWindow(window, rows, i); };
-        const std::size_t height = static_cast<std::size_t>(rows.pixels.height()) - 2;
-        tbb::parallel_for(std::size_t(1), height + 1, [&](std::size_t y) {
-            for (std::size_t x = 1; x + 1 < rows.width(); ++x) {
+        const std::size_t height = static_cast<std::size_t>(rows.pixels.height()) - 2 * kMargin;
+        tbb::parallel_for(kMargin, kMargin + height, [&](std::size_t y) {
+            for (std::size_t x = kMargin; x + kMargin < rows.width(); ++x) {
                 const std::size_t i = y * rows.width() + x, k = to(i);
                 out.color[k] = colors[i];
                 out.evaluations[k] = out.iterations[k] = rows.cones.evaluations[i];
                 if (const sdf::SurfaceHit* hit = rows.hitOf(i)) out.take(k, rows.cones.rays[i].ray, *hit);
             }
         });
-        pixels_ += height * (rows.width() - 2);
-        doubtful_ += cells.size();
+        pixels_ += height * (rows.width() - 2 * kMargin);
         for (const EdgeCell& cell : cells) {
+            if (!rows.inside(cell.pixel)) continue;
+            ++doubtful_;
             counted_ += cell.counted;
             if (cell.pieces.front().weight < 1.0) out.mixed[to(cell.pixel)] = 1, ++complex_;
         }
@@ -120,7 +123,7 @@ class ConeXTracer : public OverDevice {
     void keepParts(const FieldWindow& window, const ConeRows& rows, const std::vector<EdgeCell>& cells,
                    FieldSamples& out) const {
         for (const EdgeCell& cell : cells) {
-            if (!(cell.pieces.front().weight < 1.0)) continue;
+            if (!rows.inside(cell.pixel) || !(cell.pieces.front().weight < 1.0)) continue;
             for (const CellPart& part : cell.parts) {
                 const std::uint32_t shade = cell.pieces[static_cast<std::size_t>(part.piece)].shade;
                 out.parts.push_back({inWindow(window, rows, cell.pixel), part.share, part.polygon_px,
