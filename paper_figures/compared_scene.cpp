@@ -34,7 +34,7 @@ compare::Comparison compareOn(const ComparedPicture& picture, const std::string&
                               const compare::ScheduleOptions& schedule, Progress& progress) {
     findScene(picture.scene);
     const Prefilter filter = makePrefilter(picture.filter, picture.radius, {});
-    compare::Comparison found{picture.scene, reference, "", version(), compare::thisMachine(), {}};
+    compare::Comparison found{picture.scene, reference, "", version(), compare::thisMachine(), {}, {}};
     std::vector<compare::Contender> contenders;
     for (const std::string& method : methods) {
         contenders.push_back({method, workerArguments(picture, method)});

@@ -34,7 +34,7 @@ struct Views {
     Views(const std::string& scene, const Effort& effort, Progress& progress)
         : view(scene, effort.width, effort.height) {
         Progress quiet;
-        kinds = edgeKindsOf(view.input(quiet), effort.facts_side);
+        kinds = judge::edgeKindsOf(view.input(quiet), effort.facts_side);
         make("reference", [&] { return view.reference(effort.reference_side, progress); });
     }
     void make(const std::string& method, Progress& progress) {
@@ -82,11 +82,6 @@ double rmseOf(const Views& views, const std::string& method, EdgeKind kind) {
 
 std::size_t pixelsOf(const Views& views, EdgeKind kind) {
     return static_cast<std::size_t>(std::ranges::count(views.kinds, kind));
-}
-
-constexpr const char* kKindColors[]{"", "#d7263d", "#1f5fd0", "#2a9d3f", "#d9a400"};
-const char* colorOf(EdgeKind kind) {
-    return kKindColors[static_cast<std::size_t>(kind)];
 }
 
 /// A picture with a frame and words below it.
@@ -230,7 +225,7 @@ FigurePlot limitsPlot(const Views& views, const Effort& effort) {
                 .draw(partOf(views.of(method), boxes[row]), name, colorOf(kind), drawing);
         drawing.text(
             partPanel(90, height + 36, 0, static_cast<int>(row)).corner + glm::dvec2(-8, kPartHeight / 2),
-            nameOf(kind), fmt::format("text-anchor='end' font-size='12' fill='{}'", colorOf(kind)));
+            judge::nameOf(kind), fmt::format("text-anchor='end' font-size='12' fill='{}'", colorOf(kind)));
     }
     return {"figure-10",
             "Figure 10. Red: contours, which CTSS mends. Blue: internal edges, green: textures, yellow: "
@@ -252,7 +247,7 @@ const std::vector<std::string> kLimitMethods{"none", "ssaa:2", "ctss", "ctss-r",
 std::string kindsTable(const Views& views) {
     std::string rows;
     for (const EdgeKind kind : kEdgeKinds) {
-        rows += fmt::format("<tr><td>{}</td>", nameOf(kind)) +
+        rows += fmt::format("<tr><td>{}</td>", judge::nameOf(kind)) +
                 number(static_cast<double>(pixelsOf(views, kind)), "{:.0f}");
         for (const std::string& method : kLimitMethods) rows += number(rmseOf(views, method, kind), "{:.4f}");
         rows += "</tr>\n";
@@ -266,7 +261,7 @@ std::string kindsCsv(const Views& views) {
     std::string out = "edges,pixels,method,rmse\n";
     for (const EdgeKind kind : kEdgeKinds)
         for (const std::string& method : kLimitMethods)
-            out += fmt::format("{},{},{},{}\n", nameOf(kind), pixelsOf(views, kind), method,
+            out += fmt::format("{},{},{},{}\n", judge::nameOf(kind), pixelsOf(views, kind), method,
                                rmseOf(views, method, kind));
     return out;
 }
@@ -286,7 +281,7 @@ void addClaims(const Views& first, const Views& limits, std::vector<FigureClaim>
                       left(EdgeKind::kContour), "", "the paper shows pictures alone"});
     claims.push_back(
         {"Figure 10", "the same, internal edges, textures, light", "not antialiased",
-         left(EdgeKind::kInternal) + ", " + left(EdgeKind::kTexture) + ", " + left(EdgeKind::kLight), "",
+         left(EdgeKind::kInternal) + ", " + left(EdgeKind::kTexture) + ", " + left(EdgeKind::kReflection), "",
          "the paper shows pictures alone; below 1 where an edge of another kind shares the pixel"});
 }
 

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "paper_figures/edge_kinds.h"
 #include "paper_figures/figure.h"
 #include "paper_figures/picture_row.h"
+#include "pipeline/judge/edge_kinds.h"
 
 namespace edgewise::figures {
+
+using judge::EdgeKind, judge::kEdgeKinds;
 
 /// dB over the pixels of a mask, linear Rec.709, peak 1; none where it is empty or the error is 0.
 using Psnr = std::optional<double>;

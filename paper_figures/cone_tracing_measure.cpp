@@ -101,7 +101,7 @@ void judgeMethods(ConeScene& scene, const ConeTracingEffort& effort, Progress& p
     ConeView view(scene.name, effort.width, effort.height);
     scene.width = view.film.width, scene.height = view.film.height;
     Progress quiet;
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(quiet), effort.facts_side);
+    const std::vector<EdgeKind> kinds = judge::edgeKindsOf(view.input(quiet), effort.facts_side);
     for (const EdgeKind kind : kinds) ++scene.pixels[kind];
     const ImageBuffer reference = view.reference(effort.reference_side, progress).image;
     for (ConeRun& run : scene.runs)

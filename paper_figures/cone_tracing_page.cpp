@@ -112,7 +112,7 @@ nlohmann::ordered_json psnrJson(const EdgePsnr& psnr) {
     using Json = nlohmann::ordered_json;
     const auto number_or_null = [](const Psnr& p) { return p ? Json(*p) : Json(); };
     Json json{{"all", number_or_null(psnr.all)}};
-    for (const EdgeKind kind : kEdgeKinds) json[nameOf(kind)] = number_or_null(psnr.of(kind));
+    for (const EdgeKind kind : kEdgeKinds) json[judge::nameOf(kind)] = number_or_null(psnr.of(kind));
     return json;
 }
 
@@ -146,7 +146,7 @@ std::string coneTracingJson(const ConeTracing& found) {
                             {"published", run.published ? Json(*run.published) : Json()},
                             {"psnr", psnrJson(run.psnr)},
                             {"counts", run.counts}});
-        for (const auto& [kind, count] : scene.pixels) pixels[nameOf(kind)] = count;
+        for (const auto& [kind, count] : scene.pixels) pixels[judge::nameOf(kind)] = count;
         scenes.push_back({{"scene", scene.name},
                           {"size", {scene.width, scene.height}},
                           {"timed_size", {scene.timed_width, scene.timed_height}},

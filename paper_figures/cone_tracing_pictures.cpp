@@ -45,7 +45,7 @@ PictureRow weights(const ConeTracingEffort& effort, Progress& progress) {
                    "with cones of five pixels it is clearer still. Pixels are 8 times as large.",
                    {}};
     ConeView view("primitives", effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
+    const std::vector<EdgeKind> kinds = judge::edgeKindsOf(view.input(progress), 4);
     std::vector<EdgeKind> contours = kinds;
     for (EdgeKind& kind : contours)
         if (kind != EdgeKind::kContour) kind = EdgeKind::kNone;
@@ -87,7 +87,7 @@ PictureRow affected(const std::string& scene, const ConeTracingEffort& effort, P
 PictureRow edges(const std::string& scene, const ConeTracingEffort& effort, Progress& progress) {
     PictureRow row{fmt::format("At edges, {}", scene), "Pixels are 8 times as large.", {}};
     ConeView view(scene, effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
+    const std::vector<EdgeKind> kinds = judge::edgeKindsOf(view.input(progress), 4);
     view.film.crop = busiestPart(kinds, view.film);
     for (const std::string& method :
          {std::string("none"), std::string("ctss-r"), std::string("ctss"), std::string("ssaa:2"),
@@ -100,11 +100,11 @@ PictureRow edges(const std::string& scene, const ConeTracingEffort& effort, Prog
     for (int y = colored.box.y0; y < colored.box.y1; ++y)
         for (int x = colored.box.x0; x < colored.box.x1; ++x) {
             const EdgeKind kind = kinds[static_cast<std::size_t>(y * view.film.width + x)];
-            const glm::dvec3 color = kind == EdgeKind::kContour    ? glm::dvec3(0.8, 0.05, 0.05)
-                                     : kind == EdgeKind::kInternal ? glm::dvec3(0.05, 0.15, 0.9)
-                                     : kind == EdgeKind::kTexture  ? glm::dvec3(0.05, 0.5, 0.05)
-                                     : kind == EdgeKind::kLight    ? glm::dvec3(0.9, 0.7, 0.05)
-                                                                   : glm::dvec3(0.02);
+            const glm::dvec3 color = kind == EdgeKind::kContour      ? glm::dvec3(0.8, 0.05, 0.05)
+                                     : kind == EdgeKind::kInternal   ? glm::dvec3(0.05, 0.15, 0.9)
+                                     : kind == EdgeKind::kTexture    ? glm::dvec3(0.05, 0.5, 0.05)
+                                     : kind == EdgeKind::kReflection ? glm::dvec3(0.9, 0.7, 0.05)
+                                                                     : glm::dvec3(0.02);
             colored.rgba[colored.index(x, y)] = glm::dvec4(color, 1.0);
         }
     row.pictures.push_back(

@@ -1,11 +1,11 @@
 // Kinds of edges: one edge a picture, in a column that is known.
-#include "paper_figures/edge_kinds.h"
+#include "pipeline/judge/edge_kinds.h"
 
 #include <cmath>
 
 #include "tests/pipeline/field_pictures.h"
 
-namespace edgewise::figures {
+namespace edgewise::judge {
 namespace {
 
 using sdf::Kind;
@@ -85,7 +85,7 @@ TEST(EdgeKinds, AShadowBegins) {
     sdf::SurfaceLight light;
     light.direction_world = glm::normalize(glm::dvec3(-(12.0 - 0.75) / 5.0, 0, -1));
     picture.field->lights = {light};
-    picture.expectAlone(EdgeKind::kLight, kColumn);
+    picture.expectAlone(EdgeKind::kShadow, kColumn);
 }
 
 /// Bands of rows and a crop change nothing.
@@ -110,4 +110,4 @@ TEST(EdgeKinds, ACropHasTheKindsOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace edgewise::figures
+}  // namespace edgewise::judge
