@@ -186,7 +186,8 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
                escapedHtml(c.command), escapedHtml(c.machine.processor), c.machine.cores,
                c.machine.memory_mib) +
            "<div class='card'>" + paretoSvg(c) + slopesText(c) +
-           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) + "</div>\n" + kindsHtml(c) +
+           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) + "</div>\n" +
+           (tellsKinds(c) ? "<h2>By kinds of edges</h2>" + kindsTable(c) : "") +
            "<h2>Pictures</h2><div class='card'>" + viewer() +
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +

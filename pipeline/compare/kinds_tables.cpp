@@ -111,7 +111,7 @@ bool tellsKinds(const Comparison& comparison) {
     return std::ranges::any_of(comparison.rows, [](const Row& row) { return row.kinds.has_value(); });
 }
 
-std::string kindsHtml(const Comparison& c) {
+std::string kindsTable(const Comparison& c) {
     if (!tellsKinds(c)) return "";
     const std::vector<Line> lines = linesOf(c);
     std::string heads = "<th>dB of PSNR</th>", rows;
@@ -122,7 +122,7 @@ std::string kindsHtml(const Comparison& c) {
         rows += "</tr>\n";
     }
     return fmt::format(
-        "<h2>By kinds of edges</h2><div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}"
+        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}"
         "</tbody></table>{}</div>\n",
         heads, rows, ownErrorHtml(c));
 }

@@ -18,8 +18,8 @@ std::string kindsCsvFields(const std::optional<judge::KindErrors>& kinds);
 
 /// Whether any row has kinds.
 bool tellsKinds(const Comparison& comparison);
-/// A heading, a table of dB that sorts, a row a method, and the reference's own error; nothing without kinds.
-std::string kindsHtml(const Comparison& comparison);
+/// A card: a table of dB that sorts, a row a method, and the reference's own error; nothing without kinds.
+std::string kindsTable(const Comparison& comparison);
 /// The same in columns of text.
 std::string kindsText(const Comparison& comparison);
 
