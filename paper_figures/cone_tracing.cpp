@@ -165,8 +165,8 @@ std::vector<ConeClaim> qualityClaims(const Scenes& scenes) {
 std::vector<ConeClaim> extensionClaims(const Scenes& scenes) {
     std::vector<ConeClaim> claims{
         leastClaim(scenes, "ssaa:2", EdgeKind::kNone),
-        worstCost(scenes, "cost of ctss-x, worst scene", "ctss-x",
-                  "<= 1.15 + 2 p, p the share of complex pixels; <= 1.7", false,
+        worstCost(scenes, "cost of ctss-x, worst scene; p: share of complex pixels", "ctss-x",
+                  "<= 1.15 + 2 p, <= 1.7", false,
                   [](const ConeScene& scene) {
                       return std::min(1.15 + 2.0 * scene.shareOf("ctss-x", "pixels_complex"), 1.7);
                   }),

@@ -28,12 +28,16 @@ std::string verdict(const ConeClaim& claim) {
 }
 
 std::string claimsTable(const ConeTracing& found) {
+    constexpr const char* kWords = "<td style='text-align:left;white-space:normal'>{}</td>";
     std::string rows;
-    for (const ConeClaim& claim : claimsOf(found))
-        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                            escapedHtml(claim.claim), escapedHtml(claim.ours), escapedHtml(claim.paper),
-                            escapedHtml(claim.bar), verdict(claim));
-    return table("<th>claim</th><th>here</th><th>paper</th><th>aim</th><th>met</th>", rows);
+    for (const ConeClaim& claim : claimsOf(found)) {
+        rows += "<tr>";
+        for (const std::string& words : {escapedHtml(claim.claim), escapedHtml(claim.ours), verdict(claim),
+                                         escapedHtml(claim.bar), escapedHtml(claim.paper)})
+            rows += fmt::format(fmt::runtime(kWords), words);
+        rows += "</tr>\n";
+    }
+    return table("<th>claim</th><th>here</th><th>aim met</th><th>aim</th><th>paper</th>", rows);
 }
 
 std::string timesTable(const ConeTracing& found) {

@@ -90,9 +90,11 @@ TEST(FigureCommand, ConeTracingWritesItsFiles) {
         EXPECT_LT(psnr.at("ctss:weights=uniform"), psnr.at("ctss"));
         EXPECT_LT(psnr.at("ssaa:3"), scene.at("reference_error").at("kinds").at("contour").at("psnr"));
     }
-    for (const auto& claim : json.at("claims"))
-        if (!claim.at("margin").is_null())
+    for (const auto& claim : json.at("claims")) {
+        if (!claim.at("margin").is_null()) {
             EXPECT_EQ(claim.at("met"), claim.at("margin").get<double>() >= 0.0) << claim;
+        }
+    }
     for (const char* name : {"means-edges.pdf", "means-contour.svg", "over-ssaa_2.svg", "wires-contour.svg"})
         EXPECT_FALSE(readFile(own / name).empty()) << name;
 }

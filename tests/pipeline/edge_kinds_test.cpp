@@ -113,22 +113,14 @@ TEST(EdgeKinds, ACropHasTheKindsOfTheWhole) {
     EXPECT_GT(met, 20);
 }
 
-/// On which side of the border a place of the world's x, y lies, and how far from it at least.
-struct Side {
-    bool inside;
-    double margin_px;
-};
-using SideAt = std::function<Side(const glm::dvec2& p_world)>;
+/// How far outside the border a place of the world's x, y lies: px, at most so far.
+using DistanceAt = std::function<double(const glm::dvec2& p_world)>;
 
 constexpr int kFilm = 24;
 
 /// A picture with a single border, and the same border in closed form.
 struct Bordered : test::FieldPicture {
-    Bordered() : FieldPicture(test::flatPicture(kFilm, kFilm)) {
-        field->materials = {test::unlitWhite()};
-        // Hits lie up to the threshold before their surface.
-        slack_px = 2.0 * sdf::TraceSettings().threshold / kPerSide;
-    }
+    Bordered() : FieldPicture(test::flatPicture(kFilm, kFilm)) { field->materials = {test::unlitWhite()}; }
     sdf::Tree& tree() { return field->tree; }
     std::uint32_t moved(std::uint32_t node, const glm::dvec3& by) {
         return tree().add(Kind::kTranslate, {by.x, by.y, by.z}, {node});
@@ -140,22 +132,23 @@ struct Bordered : test::FieldPicture {
     std::uint32_t united(std::uint32_t a, std::uint32_t b) { return tree().add(Kind::kUnion, {}, {a, b}); }
     void root(std::uint32_t node) { tree().root = node; }
 
-    double slack_px;
+    /// Hits lie up to the threshold, half a sample's side each, before their surface.
+    double slack_px = 0.5 * sdf::TraceSettings().threshold / kPerSide;
 };
 
 class BorderWitness {
   public:
-    BorderWitness(SideAt side, double slack_px) : side_(std::move(side)), slack_(slack_px) {}
+    BorderWitness(DistanceAt distance, double slack_px) : distance_(std::move(distance)), slack_(slack_px) {}
 
     /// Where it is sure of them: the kind where the lattice's neighbours lie on both sides.
     void expect(const std::vector<EdgeKind>& kinds, EdgeKind kind) {
         for (int y = 0; y < kFilm; ++y)
             for (int x = 0; x < kFilm; ++x) {
-                const std::optional<bool> crossed = crosses(x, y);
-                if (!crossed) continue;
-                ++sure_, crossed_ += *crossed;
+                const bool crossed = crosses(x, y, 0.0);
+                if (crossed != crosses(x, y, slack_) || crossed != crosses(x, y, -slack_)) continue;
+                ++sure_, crossed_ += crossed;
                 EXPECT_STREQ(nameOf(kinds[static_cast<std::size_t>(y * kFilm + x)]),
-                             nameOf(*crossed ? kind : EdgeKind::kNone))
+                             nameOf(crossed ? kind : EdgeKind::kNone))
                     << x << "," << y;
             }
     }
@@ -163,39 +156,36 @@ class BorderWitness {
     int sure() const { return sure_; }
 
   private:
-    /// None: a place decides it that is too near to the border.
-    std::optional<bool> crosses(int x, int y) const {
-        bool crossed = false, doubtful = false;
+    /// With the border moved outwards.
+    bool crosses(int x, int y, double moved_px) const {
         const int last = kFilm * kPerSide - 1;
+        const auto inside = [&](int i, int j) { return at(i, j) < moved_px; };
         for (int j = y * kPerSide; j < (y + 1) * kPerSide; ++j)
             for (int i = x * kPerSide; i < (x + 1) * kPerSide; ++i)
-                for (const auto& [i2, j2] : {std::pair(i + 1, j), {i, j + 1}}) {
-                    if (i2 > last || j2 > last) continue;
-                    const Side a = at(i, j), b = at(i2, j2);
-                    const bool unsure = std::min(a.margin_px, b.margin_px) < slack_;
-                    (unsure ? doubtful : crossed) |= unsure || a.inside != b.inside;
-                }
-        return !crossed && doubtful ? std::nullopt : std::optional(crossed);
+                if ((i < last && inside(i, j) != inside(i + 1, j)) ||
+                    (j < last && inside(i, j) != inside(i, j + 1)))
+                    return true;
+        return false;
     }
-    Side at(int i, int j) const {
-        return side_({(i + 0.5) / kPerSide - 0.5 * kFilm, 0.5 * kFilm - (j + 0.5) / kPerSide});
+    double at(int i, int j) const {
+        return distance_({(i + 0.5) / kPerSide - 0.5 * kFilm, 0.5 * kFilm - (j + 0.5) / kPerSide});
     }
 
-    SideAt side_;
+    DistanceAt distance_;
     double slack_;
     int sure_ = 0, crossed_ = 0;
 };
 
 /// Borders at random places: each makes its picture and says where its border is.
-void expectBorders(EdgeKind kind, const std::function<SideAt(std::mt19937&, Bordered&)>& make) {
+void expectBorders(EdgeKind kind, const std::function<DistanceAt(std::mt19937&, Bordered&)>& make) {
     constexpr unsigned kSeed = 20261128;
     int crossed = 0, sure = 0;
     for (unsigned seed = kSeed; seed < kSeed + 6; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         Bordered picture;
-        const SideAt side = make(random, picture);
-        BorderWitness witness(side, picture.slack_px);
+        const DistanceAt distance = make(random, picture);
+        BorderWitness witness(distance, picture.slack_px);
         witness.expect(edgeKindsOf(picture.input(), kPerSide), kind);
         crossed += witness.crossed(), sure += witness.sure();
     }
@@ -207,36 +197,34 @@ double within(std::mt19937& random, double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
 }
 
-Side beyond(double distance) {
-    return {distance < 0.0, std::abs(distance)};
-}
-
 /// The line n . p = offset.
-SideAt lineAt(double degrees, double offset) {
+DistanceAt lineAt(double degrees, double offset) {
     const glm::dvec2 n(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)));
-    return [n, offset](const glm::dvec2& p) { return beyond(glm::dot(n, p) - offset); };
+    return [n, offset](const glm::dvec2& p) { return glm::dot(n, p) - offset; };
 }
 
 TEST(EdgeKindsWitness, ADiskHasContoursAlone) {
-    expectBorders(EdgeKind::kContour, [](std::mt19937& random, Bordered& picture) -> SideAt {
+    expectBorders(EdgeKind::kContour, [](std::mt19937& random, Bordered& picture) -> DistanceAt {
         const double radius = within(random, 8.5, 11.0);
         const glm::dvec2 middle(within(random, -1, 1), within(random, -1, 1));
         picture.root(picture.moved(picture.tree().add(Kind::kSphere, {radius}), {middle, 0.0}));
-        return [=](const glm::dvec2& p) { return beyond(glm::length(p - middle) - radius); };
+        return [=](const glm::dvec2& p) { return glm::length(p - middle) - radius; };
     });
 }
 
 TEST(EdgeKindsWitness, ACheckerHasTexturesAlone) {
-    expectBorders(EdgeKind::kTexture, [](std::mt19937& random, Bordered& picture) -> SideAt {
+    expectBorders(EdgeKind::kTexture, [](std::mt19937& random, Bordered& picture) -> DistanceAt {
         const double size = within(random, 4.0, 7.0);
         const glm::dvec2 corner(within(random, 0, size), within(random, 0, size));
         auto& material = picture.field->materials[0];
+        picture.slack_px = 1e-3;  // hits move along the line of sight alone
         material.pattern = sdf::SurfaceMaterial::Pattern::kChecker, material.pattern_size = size;
         picture.root(picture.moved(picture.tree().add(Kind::kPlane, {0, 0, 1, 0}), {corner, 0.0}));
         return [=](const glm::dvec2& p) {
             const glm::dvec2 cell = (p - corner) / size, off = size * glm::abs(cell - glm::round(cell));
             const glm::dvec2 at = glm::floor(cell);
-            return Side{std::fmod(std::abs(at.x + at.y), 2.0) == 1.0, std::min(off.x, off.y)};
+            return std::fmod(std::abs(at.x + at.y), 2.0) == 1.0 ? -std::min(off.x, off.y)
+                                                                : std::min(off.x, off.y);
         };
     });
 }
@@ -254,20 +242,24 @@ TEST(EdgeKindsWitness, ABoxHasInternalEdgesAlone) {
 
 /// Of a ball beside the film, by a lamp: a place is dark where its way to the lamp meets the ball.
 TEST(EdgeKindsWitness, ALampsShadowHasShadowsAlone) {
-    expectBorders(EdgeKind::kShadow, [](std::mt19937& random, Bordered& picture) -> SideAt {
+    expectBorders(EdgeKind::kShadow, [](std::mt19937& random, Bordered& picture) -> DistanceAt {
         const double radius = within(random, 2.5, 3.5);
-        const glm::dvec3 ball(20.0, within(random, -1, 1), within(random, 4.5, 5.0)), lamp(40, 0, 10);
+        const glm::dvec3 ball(20.0, within(random, -1, 1), within(random, 19, 20)), lamp(40, 0, 40);
         picture.field->materials[0] = {};
         picture.field->materials[0].color = glm::dvec3(1.0);
         sdf::SurfaceLight light;
         light.type = sdf::SurfaceLight::Type::kPoint;
         light.position_world = lamp, light.intensity = 1e4;
         picture.field->lights = {light};
+        // A shadow's ray is as wide at the ball, 28 away, as at 28 from the camera, which is 10 above the
+        // floor; on the floor that is twice as much. It begins up to two thresholds above the floor.
+        picture.slack_px *= 2.0 * 28.0 / 10.0 + 2.0;
         picture.root(picture.united(picture.moved(picture.tree().add(Kind::kSphere, {radius}), ball),
                                     picture.tree().add(Kind::kPlane, {0, 0, 1, 0})));
         return [=](const glm::dvec2& p) {
             const glm::dvec3 from(p, 0.0), way = glm::normalize(lamp - from);
-            return beyond(glm::length(glm::cross(ball - from, way)) - radius);
+            // The lamp is twice as far from the floor as from the ball.
+            return 2.0 * (glm::length(glm::cross(ball - from, way)) - radius);
         };
     });
 }
@@ -276,6 +268,7 @@ TEST(EdgeKindsWitness, ALampsShadowHasShadowsAlone) {
 TEST(EdgeKindsWitness, AMirrorShowsReflectionsAlone) {
     expectBorders(EdgeKind::kReflection, [](std::mt19937& random, Bordered& picture) {
         const double angle = within(random, 0, 360), offset = within(random, -4, 4);
+        picture.slack_px *= 28.0 / 10.0;  // as the lamp's
         sdf::SurfaceMaterial mirror;
         mirror.reflectance = 1.0;
         picture.field->materials = {mirror, test::unlitWhite()};
