@@ -157,6 +157,8 @@ std::vector<ConeClaim> qualityClaims(const Scenes& scenes) {
             gainClaim(scenes, {"backtracing on over off, all edges", "ctss", "ctss:backtrace=off", kAll,
                                "more reliable samples"}),
             gainClaim(scenes,
+                      {"ctss+ssaa:2 over ssaa:3, contours", "ctss+ssaa:2", "ssaa:3", kContour, "comparable"}),
+            gainClaim(scenes,
                       {"ctss+ssaa:2 over ssaa:3, all edges", "ctss+ssaa:2", "ssaa:3", kAll, "comparable"}),
             gainClaim(scenes, {"ctss-r:coverage=2 over ctss-r, contours", "ctss-r:coverage=2", "ctss-r",
                                kContour, "closer to ctss"})};

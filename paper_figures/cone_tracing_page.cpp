@@ -91,7 +91,10 @@ std::string scenesHtml(const ConeTracing& found, const std::vector<FigurePlot>& 
     for (const ConeScene& scene : found.scenes) {
         const std::vector<FigurePlot> own = plotsOf(plots, scene.name() + "-");
         if (own.empty()) continue;
-        out += fmt::format("<h2>{}</h2>", escapedHtml(scene.name())) + plotsHtml({own.data(), 1}) +
+        out += fmt::format("<h2>{}</h2><div style='max-width:800px'>", escapedHtml(scene.name())) +
+               plotsHtml({own.data(), 1}) +
+               "</div>
+               " +
                compare::kindsTable(scene.judged) +
                "<details><summary>Each kind of edge against time</summary>\n" +
                plotsHtml({own.data() + 1, own.size() - 1}) + "</details>\n";
@@ -132,7 +135,8 @@ FigureWords wordsOf(const ConeTracing& found) {
         "take turns, times are medians without set-up. Kinds of edges are what rays of a lattice meet, not "
         "what colours look like. Gains are means of dB over the scenes that have the kind; costs are "
         "geometric means over the five scenes that Table 1 has, our atrium in the place of its Sponza. The "
-        "aims of costs were set for 1280x720 on one software device by itself.",
+        "aims of costs were set for 1280x720 on one software device by itself." +
+            std::string(found.quick ? " Here times are of small pictures, which say little of costs." : ""),
         {{"judged", fmt::format("CPU, {}, box filter, reference {}", sizeOf(found), reference)},
          {"times of the aims", found.timed_on},
          {"runs", fmt::format("{}, by turns, after one that does not count", found.runs)},

@@ -243,8 +243,10 @@ void addCompare(CLI::App& program, const std::string& command_line) {
     arguments->command_line = command_line;
     addPictureOptions(*command, arguments->picture);
     command
-        ->add_option("-o,--output", arguments->folder,
-                     "results.json, results.csv, table.tex, report.html, pareto.svg, pareto.pdf, pictures")
+        ->add_option(
+            "-o,--output", arguments->folder,
+            "results.json, results.csv, table.tex, report.html, pareto.svg, pareto.pdf, pictures; of "
+            "SDF scenes errors by kinds of edges too")
         ->type_name("DIR")
         ->required();
     command->add_option("--method", arguments->methods, "repeated; `edgewise methods` lists them")

@@ -185,7 +185,8 @@ std::string edgeKindDefinitions() {
         "than {:.0f} degrees. Texture: another material, or a pattern's colours differ by more than 1/255. "
         "Shadow: other lights are seen, and lit colours differ by more than 1/255. Reflection: what mirrors "
         "and glass show, or a highlight, changes by more than 1/{:.0f} in linear light. No edge: all the "
-        "other pixels. By the pixel that the edge crosses, however wide the filter is</dd>",
+        "other pixels, those among them where something thinner than a step slips through the lattice. By "
+        "the pixel that the edge crosses, however wide the filter is</dd>",
         kLeap, glm::degrees(std::acos(kTurn)), 1.0 / kLightStep);
 }
 
