@@ -92,10 +92,7 @@ std::string scenesHtml(const ConeTracing& found, const std::vector<FigurePlot>& 
         const std::vector<FigurePlot> own = plotsOf(plots, scene.name() + "-");
         if (own.empty()) continue;
         out += fmt::format("<h2>{}</h2><div style='max-width:800px'>", escapedHtml(scene.name())) +
-               plotsHtml({own.data(), 1}) +
-               "</div>
-               " +
-               compare::kindsTable(scene.judged) +
+               plotsHtml({own.data(), 1}) + "</div>\n" + compare::kindsTable(scene.judged) +
                "<details><summary>Each kind of edge against time</summary>\n" +
                plotsHtml({own.data() + 1, own.size() - 1}) + "</details>\n";
     }
