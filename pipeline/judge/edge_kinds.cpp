@@ -22,6 +22,14 @@ constexpr double kLeap = 2.0;
 constexpr double kTurn = 0.9659;         // 15 degrees
 constexpr double kLightStep = 1.0 / 32;  // smooth light changes less from a sub-sample to the next
 
+/// On the film, px.
+glm::dvec2 placeOf(const FieldWindow& window, std::size_t i) {
+    const std::size_t stride = window.stride();
+    const double side = window.per_side;
+    return {window.pixels.x0 + (static_cast<double>(i % stride) + 0.5) / side,
+            window.pixels.y0 + (static_cast<double>(i / stride) + 0.5) / side};
+}
+
 class Pairs {
   public:
     Pairs(const FieldWindow& window, const sdf::RayGrid& rays, const LatticeFacts& facts)
@@ -59,15 +67,6 @@ class Pairs {
         return std::min(off(s.normal[a]), off(s.normal[b])) > kLeap * side;
     }
 
-  public:
-    static glm::dvec2 placeOf(const FieldWindow& window, std::size_t i) {
-        const std::size_t stride = window.stride();
-        const double side = window.per_side;
-        return {window.pixels.x0 + (static_cast<double>(i % stride) + 0.5) / side,
-                window.pixels.y0 + (static_cast<double>(i / stride) + 0.5) / side};
-    }
-
-  private:
     const FieldWindow& window_;
     const sdf::RayGrid& rays_;
     const LatticeFacts& facts_;
@@ -77,9 +76,6 @@ EdgeKind first(EdgeKind a, EdgeKind b) {
     if (a == EdgeKind::kNone || b == EdgeKind::kNone) return std::max(a, b);
     return std::min(a, b);
 }
-
-/// The same surfaces in another light.
-using FieldCopy = std::shared_ptr<sdf::FieldScene>;
 
 std::unique_ptr<FieldTracer> tracerOf(const MethodInput& input, const FieldSettings& settings) {
 #ifdef EDGEWISE_HAS_VULKAN
@@ -129,7 +125,7 @@ class FactsTracer {
         const std::size_t count = window.samples();
         std::vector<sdf::TravellingRay> rays(count);
         for (std::size_t i = 0; i < count; ++i)
-            rays[i].ray = rays_.ray(Pairs::placeOf(window, i)), rays[i].sign = sign_;
+            rays[i].ray = rays_.ray(placeOf(window, i)), rays[i].sign = sign_;
         std::vector<sdf::SurfaceHit> hits = lights_->batches().describe(rays, facts.surface.depth);
         if (colors_) facts.seen = colors_->shade(rays, hits);
         facts.lit = lights_->shade(rays, std::move(hits), &facts.sights);
