@@ -24,30 +24,53 @@ std::vector<std::string> workerArguments(const ComparedPicture& picture, const s
             fmt::format("--size={}x{}", picture.width, picture.height),
             "--filter=" + picture.filter,
             fmt::format("--radius={}", picture.radius),
-            "--device=cpu",
+            "--device=" + picture.device,
             fmt::format("--memory={:.0f}", std::ceil(kUsualMemory + image_mib)),
             "--method=" + method};
 }
 
+namespace {
+
+struct Contest {
+    std::vector<compare::Contender> contenders;
+    std::vector<compare::Row> rows;
+
+    Contest(const ComparedPicture& picture, const std::vector<std::string>& methods) {
+        findScene(picture.scene);
+        const Prefilter filter = makePrefilter(picture.filter, picture.radius, {});
+        for (const std::string& method : methods) {
+            contenders.push_back({method, workerArguments(picture, method)});
+            rows.push_back(compare::rowOf(parseMethod(method), filter));
+        }
+    }
+};
+
+}  // namespace
+
 compare::Comparison compareOn(const ComparedPicture& picture, const std::string& reference,
                               const std::vector<std::string>& methods,
-                              const compare::ScheduleOptions& schedule, Progress& progress) {
-    findScene(picture.scene);
-    const Prefilter filter = makePrefilter(picture.filter, picture.radius, {});
-    compare::Comparison found{picture.scene, reference, "", version(), compare::thisMachine(), {}};
-    std::vector<compare::Contender> contenders;
-    for (const std::string& method : methods) {
-        contenders.push_back({method, workerArguments(picture, method)});
-        found.rows.push_back(compare::rowOf(parseMethod(method), filter));
-    }
+                              const compare::ScheduleOptions& schedule, Progress& progress,
+                              const compare::ReferenceWishes& wishes) {
+    Contest contest(picture, methods);
     compare::Row own;
     const compare::ReferencePicture truth = compare::referenceOf(
-        {reference, workerArguments(picture, reference)}, schedule.scratch, own, progress);
+        {reference, workerArguments(picture, reference)}, schedule.scratch, own, progress, wishes);
     compare::runByTurns(
-        contenders, schedule, found.rows,
-        [&](std::size_t i, const ImageBuffer& image) { compare::judgeRow(found.rows[i], image, truth); },
+        contest.contenders, schedule, contest.rows,
+        [&](std::size_t i, const ImageBuffer& image) { compare::judgeRow(contest.rows[i], image, truth); },
         [](std::size_t) {}, progress);
-    return found;
+    return {picture.scene,           reference,  "", version(), compare::thisMachine(),
+            std::move(contest.rows), truth.error};
+}
+
+std::vector<compare::Row> timesOn(const ComparedPicture& picture, const std::vector<std::string>& methods,
+                                  compare::ScheduleOptions schedule, Progress& progress) {
+    Contest contest(picture, methods);
+    schedule.pictures = false;
+    compare::runByTurns(
+        contest.contenders, schedule, contest.rows, [](std::size_t, const ImageBuffer&) {},
+        [](std::size_t) {}, progress);
+    return std::move(contest.rows);
 }
 
 }  // namespace edgewise::figures

@@ -9,12 +9,13 @@
 
 namespace edgewise::figures {
 
-/// What every method makes, on the CPU unless it names a device itself.
+/// What every method makes.
 struct ComparedPicture {
     std::string scene;  ///< a name or a file
     int width = 0, height = 0;
     std::string filter = "box";
     double radius = 0.5;
+    std::string device = "cpu";  ///< of methods that name none
 };
 
 /// Of the runs inside: their stages have the name of what is measured.
@@ -33,10 +34,16 @@ class Labelled : public Progress {
 /// Of compare-worker, with memory that holds the image.
 std::vector<std::string> workerArguments(const ComparedPicture& picture, const std::string& method);
 
-/// A row a method, by turns, judged against the reference, which is not timed. Rows that failed say why.
-/// Throws Interrupted, InputError for no scene or method, WorkerFailure where the reference cannot be made.
+/// A row a method, by turns, judged against the reference, which is not timed, and by kinds of edges where
+/// those are wished for. Rows that failed say why. Throws Interrupted, InputError for no scene or method,
+/// WorkerFailure where the reference cannot be made.
 compare::Comparison compareOn(const ComparedPicture& picture, const std::string& reference,
                               const std::vector<std::string>& methods,
-                              const compare::ScheduleOptions& schedule, Progress& progress);
+                              const compare::ScheduleOptions& schedule, Progress& progress,
+                              const compare::ReferenceWishes& wishes = {});
+
+/// The same without a reference: times alone.
+std::vector<compare::Row> timesOn(const ComparedPicture& picture, const std::vector<std::string>& methods,
+                                  compare::ScheduleOptions schedule, Progress& progress);
 
 }  // namespace edgewise::figures

@@ -5,127 +5,35 @@
 #include <cmath>
 #include <map>
 
-#include "paper_figures/cone_tracing_measure.h"
-#include "paper_figures/drawing.h"
-#include "paper_figures/edge_part.h"
+#include "paper_figures/edge_parts_plot.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
-#include "pipeline/methods/stopwatch.h"
 
 namespace edgewise::figures {
 namespace {
+
+constexpr double kPartWidth = PanelGrid().width, kPartHeight = PanelGrid().height, kGap = PanelGrid::kGap,
+                 kWords = PanelGrid::kWords;
 
 struct Effort {
     int width = 1280, height = 720, reference_side = 8, facts_side = 4;
     glm::ivec2 part{40, 28};
 };
 
-struct Made {
-    ImageBuffer image;
-    double seconds = 0.0;
-};
+const std::vector<std::string> kLimitMethods{"none", "ssaa:2", "ctss", "ctss-r", "ctss-x"};
 
-/// A scene by methods, with what its pixels show.
-struct Views {
-    ConeView view;
-    std::vector<EdgeKind> kinds;
-    std::map<std::string, Made> made;
-
-    Views(const std::string& scene, const Effort& effort, Progress& progress)
-        : view(scene, effort.width, effort.height) {
-        Progress quiet;
-        kinds = edgeKindsOf(view.input(quiet), effort.facts_side);
-        make("reference", [&] { return view.reference(effort.reference_side, progress); });
-    }
-    void make(const std::string& method, Progress& progress) {
-        make(method, [&] { return view.made(method, progress); });
-    }
-    const ImageBuffer& of(const std::string& method) const { return made.at(method).image; }
-
-  private:
-    template <class Maker>
-    void make(const std::string& method, const Maker& maker) {
-        Stopwatch watch;
-        MethodResult result = maker();
-        made[method] = {std::move(result.image), watch.lap() - result.setup_seconds};
-    }
-};
-
-ImageBuffer partOf(const ImageBuffer& image, const PixelBox& box) {
-    ImageBuffer part(box);
-    for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x) part.rgba[part.index(x, y)] = image.rgba[image.index(x, y)];
-    return part;
+MethodViews viewsOf(const std::string& scene, const Effort& effort, Progress& progress) {
+    return {scene, effort.width, effort.height, effort.reference_side, effort.facts_side, progress};
 }
 
-/// |a - b|, so many times as bright.
-ImageBuffer difference(const ImageBuffer& a, const ImageBuffer& b, double gain) {
-    ImageBuffer out(a.box);
-    for (int y = a.box.y0; y < a.box.y1; ++y)
-        for (int x = a.box.x0; x < a.box.x1; ++x)
-            out.rgba[out.index(x, y)] =
-                glm::dvec4(gain * glm::abs(glm::dvec3(a.rgba[a.index(x, y)] - b.rgba[b.index(x, y)])), 1.0);
-    return out;
-}
-
-/// Over the pixels of a kind, linear RGB.
-double rmseOf(const Views& views, const std::string& method, EdgeKind kind) {
-    double sum = 0.0;
-    std::size_t pixels = 0;
-    for (std::size_t i = 0; i < views.kinds.size(); ++i) {
-        if (views.kinds[i] != kind) continue;
-        const glm::dvec3 d(views.of(method).rgba[i] - views.of("reference").rgba[i]);
-        sum += glm::dot(d, d), ++pixels;
-    }
-    return pixels == 0 ? 0.0 : std::sqrt(sum / (3.0 * static_cast<double>(pixels)));
-}
-
-std::size_t pixelsOf(const Views& views, EdgeKind kind) {
-    return static_cast<std::size_t>(std::ranges::count(views.kinds, kind));
-}
-
-constexpr const char* kKindColors[]{"", "#d7263d", "#1f5fd0", "#2a9d3f", "#d9a400"};
-const char* colorOf(EdgeKind kind) {
-    return kKindColors[static_cast<std::size_t>(kind)];
-}
-
-/// A picture with a frame and words below it.
-struct Panel {
-    glm::dvec2 corner, size;
-    void draw(const ImageBuffer& image, const std::string& words, const std::string& frame,
-              Drawing& drawing) const {
-        drawing.picture(corner, size, pictureOf(image, "", "").file.bytes);
-        drawing.rectangle(corner, size, fmt::format("fill='none' stroke='{}' stroke-width='2'", frame));
-        drawing.text(corner + glm::dvec2(size.x / 2, size.y + 14), words,
-                     "text-anchor='middle' font-size='11'");
-    }
-};
-
-constexpr double kPartWidth = 168, kPartHeight = kPartWidth * 28 / 40, kGap = 10, kWords = 22;
-
-Panel partPanel(double left, double top, int column, int row) {
-    return {{left + column * (kPartWidth + kGap), top + row * (kPartHeight + kWords)},
-            {kPartWidth, kPartHeight}};
-}
-
-constexpr double kLeastSmall = 640;  ///< px of a whole picture that is shown as it is
-
-/// The whole picture, with a frame around each part.
-void drawWhole(const Views& views, const std::string& method, const Panel& panel,
-               const std::vector<std::pair<PixelBox, const char*>>& parts, Drawing& drawing) {
-    const ImageBuffer& image = views.of(method);
-    panel.draw(image.box.width() > kLeastSmall ? shrunk(image, 2) : image, method, "#777", drawing);
-    const glm::dvec2 scale = panel.size / glm::dvec2(image.box.width(), image.box.height());
-    for (const auto& [box, color] : parts)
-        drawing.rectangle(panel.corner + scale * glm::dvec2(box.x0, box.y0),
-                          scale * glm::dvec2(box.width(), box.height()),
-                          fmt::format("fill='none' stroke='{}' stroke-width='2'", color));
+double rmseOf(const MethodViews& views, const std::string& method, EdgeKind kind) {
+    return views.errorsOf(method).of(kind).rmse();
 }
 
 constexpr double kSeen = 0.1;  ///< a difference in linear RGB that eyes find in an enlarged part
 
 /// The contours where a sample a pixel errs visibly; the rest counts as nothing.
-std::vector<EdgeKind> visibleContours(const Views& views) {
+std::vector<EdgeKind> visibleContours(const MethodViews& views) {
     std::vector<EdgeKind> kinds = views.kinds;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const glm::dvec3 d(views.of("none").rgba[i] - views.of("reference").rgba[i]);
@@ -135,7 +43,7 @@ std::vector<EdgeKind> visibleContours(const Views& views) {
 }
 
 /// Figure 1.
-FigurePlot firstPlot(const Views& views, const Effort& effort) {
+FigurePlot firstPlot(const MethodViews& views, const Effort& effort) {
     constexpr double kWhole = 620;
     Drawing drawing(kWhole + 3 * (kPartWidth + kGap) + 20, 380, "One scene without and with antialiasing");
     const std::vector<EdgeKind> kinds = visibleContours(views);
@@ -147,10 +55,11 @@ FigurePlot firstPlot(const Views& views, const Effort& effort) {
     int column = 0;
     for (const auto& [method, name] : {std::pair("none", "no AA"), {"ssaa:2", "4x SSAA"}, {"ctss", "CTSS"}}) {
         for (int row = 0; row < 2; ++row)
-            partPanel(kWhole + 24, 12, column, row)
+            PanelGrid{kWhole + 24, 12}
+                .at(column, row)
                 .draw(partOf(views.of(method), boxes[static_cast<std::size_t>(row)]), name,
                       row == 0 ? "#d7263d" : "#e0a100", drawing);
-        drawing.text(partPanel(kWhole + 24, 12, column, 2).corner + glm::dvec2(kPartWidth / 2, 16),
+        drawing.text(PanelGrid{kWhole + 24, 12}.at(column, 2).corner + glm::dvec2(kPartWidth / 2, 16),
                      fmt::format("{:.0f} ms, {:.2f} of no AA", 1e3 * views.made.at(method).seconds,
                                  views.made.at(method).seconds / views.made.at("none").seconds),
                      "text-anchor='middle' font-size='11'");
@@ -164,10 +73,10 @@ FigurePlot firstPlot(const Views& views, const Effort& effort) {
 }
 
 /// Figure 5.
-FigurePlot weightsPlot(const Views& views, const PixelBox& box) {
+FigurePlot weightsPlot(const MethodViews& views, const PixelBox& box) {
     Drawing drawing(3 * (kPartWidth + kGap) + 30, 2 * (kPartHeight + kWords) + 30, "Weights of samples");
     const auto part = [&](const char* method, const char* words, int column, int row) {
-        partPanel(10, 20, column, row).draw(partOf(views.of(method), box), words, "#777", drawing);
+        PanelGrid{10, 20}.at(column, row).draw(partOf(views.of(method), box), words, "#777", drawing);
     };
     part("none", "(a) no antialiasing", 0, 0);
     part("ctss:weights=uniform", "(b) U, 1 pixel", 1, 0);
@@ -182,10 +91,8 @@ FigurePlot weightsPlot(const Views& views, const PixelBox& box) {
             drawing.svg()};
 }
 
-constexpr double kErrorGain = 4.0;
-
 /// Beyond Figure 5: masks and backtracing, which the paper shows in words.
-FigurePlot settingsPlot(const Views& views, const PixelBox& box) {
+FigurePlot settingsPlot(const MethodViews& views, const PixelBox& box) {
     Drawing drawing(4 * (kPartWidth + kGap) + 30, 2 * (kPartHeight + kWords) + 30, "Masks and backtracing");
     int column = 0;
     for (const auto& [method, words] : {std::pair("ctss:weights=uniform", "uniform"),
@@ -193,11 +100,11 @@ FigurePlot settingsPlot(const Views& views, const PixelBox& box) {
                                         {"ctss:mask=4x8", "4x8, backtraced"},
                                         {"ctss:backtrace=off", "6x6, not backtraced"}}) {
         const ImageBuffer part = partOf(views.of(method), box);
-        partPanel(10, 20, column, 0).draw(part, words, "#777", drawing);
-        partPanel(10, 20, column, 1)
-            .draw(difference(part, partOf(views.of("reference"), box), kErrorGain),
-                  fmt::format("RMSE {:.4f} on contours", rmseOf(views, method, EdgeKind::kContour)), "#777",
-                  drawing);
+        PanelGrid{10, 20}.at(column, 0).draw(part, words, "#777", drawing);
+        PanelGrid{10, 20}.at(column, 1).draw(
+            difference(part, partOf(views.of("reference"), box), kErrorGain),
+            fmt::format("RMSE {:.4f} on contours", rmseOf(views, method, EdgeKind::kContour)), "#777",
+            drawing);
         ++column;
     }
     return {
@@ -210,33 +117,13 @@ FigurePlot settingsPlot(const Views& views, const PixelBox& box) {
 }
 
 /// Figure 10.
-FigurePlot limitsPlot(const Views& views, const Effort& effort) {
-    constexpr double kWhole = 4 * (kPartWidth + kGap) - kGap;
-    const double height = kWhole * effort.height / effort.width;
-    Drawing drawing(kWhole + 110, height + 40 + 4 * (kPartHeight + kWords), "Edges that cones do not see");
-    std::vector<PixelBox> boxes;
-    std::vector<std::pair<PixelBox, const char*>> framed;
-    for (const EdgeKind kind : kEdgeKinds) {
-        boxes.push_back(partOfKind(views.kinds, views.view.film, kind, effort.part, boxes));
-        framed.emplace_back(boxes.back(), colorOf(kind));
-    }
-    drawWhole(views, "ctss", {{90, 12}, {kWhole, height}}, framed, drawing);
-    for (std::size_t row = 0; row < boxes.size(); ++row) {
-        const EdgeKind kind = kEdgeKinds[row];
-        int column = 0;
-        for (const auto& [method, name] :
-             {std::pair("none", "no AA"), {"ctss", "CTSS"}, {"ctss-x", "ctss-x"}, {"reference", "reference"}})
-            partPanel(90, height + 36, column++, static_cast<int>(row))
-                .draw(partOf(views.of(method), boxes[row]), name, colorOf(kind), drawing);
-        drawing.text(
-            partPanel(90, height + 36, 0, static_cast<int>(row)).corner + glm::dvec2(-8, kPartHeight / 2),
-            nameOf(kind), fmt::format("text-anchor='end' font-size='12' fill='{}'", colorOf(kind)));
-    }
+FigurePlot limitsPlot(const MethodViews& views, const Effort& effort) {
     return {"figure-10",
             "Figure 10. Red: contours, which CTSS mends. Blue: internal edges, green: textures, yellow: "
-            "borders of "
-            "shadows and of what is mirrored, which it does not.",
-            drawing.svg()};
+            "shadows, violet: highlights and what is mirrored, which it does not.",
+            edgePartsSvg(
+                views, edgeParts(views, effort.part), "ctss",
+                {{"none", "no AA"}, {"ctss", "CTSS"}, {"ctss-x", "ctss-x"}, {"reference", "reference"}})};
 }
 
 /// Each over the whole width, as large as drawn.
@@ -247,13 +134,11 @@ std::string alone(const std::vector<FigurePlot>& plots) {
     return out;
 }
 
-const std::vector<std::string> kLimitMethods{"none", "ssaa:2", "ctss", "ctss-r", "ctss-x"};
-
-std::string kindsTable(const Views& views) {
+std::string kindsTable(const MethodViews& views) {
     std::string rows;
     for (const EdgeKind kind : kEdgeKinds) {
-        rows += fmt::format("<tr><td>{}</td>", nameOf(kind)) +
-                number(static_cast<double>(pixelsOf(views, kind)), "{:.0f}");
+        rows += fmt::format("<tr><td>{}</td>", judge::nameOf(kind)) +
+                number(static_cast<double>(views.pixelsOf(kind)), "{:.0f}");
         for (const std::string& method : kLimitMethods) rows += number(rmseOf(views, method, kind), "{:.4f}");
         rows += "</tr>\n";
     }
@@ -262,16 +147,16 @@ std::string kindsTable(const Views& views) {
     return table(heads, rows);
 }
 
-std::string kindsCsv(const Views& views) {
+std::string kindsCsv(const MethodViews& views) {
     std::string out = "edges,pixels,method,rmse\n";
     for (const EdgeKind kind : kEdgeKinds)
         for (const std::string& method : kLimitMethods)
-            out += fmt::format("{},{},{},{}\n", nameOf(kind), pixelsOf(views, kind), method,
+            out += fmt::format("{},{},{},{}\n", judge::nameOf(kind), views.pixelsOf(kind), method,
                                rmseOf(views, method, kind));
     return out;
 }
 
-void addClaims(const Views& first, const Views& limits, std::vector<FigureClaim>& claims) {
+void addClaims(const MethodViews& first, const MethodViews& limits, std::vector<FigureClaim>& claims) {
     const auto ratio = [&](const char* method) {
         return fmt::format("{:.2f}", first.made.at(method).seconds / first.made.at("none").seconds);
     };
@@ -285,8 +170,8 @@ void addClaims(const Views& first, const Views& limits, std::vector<FigureClaim>
     claims.push_back({"Figure 10", "error that CTSS leaves of no antialiasing's, external edges", "mended",
                       left(EdgeKind::kContour), "", "the paper shows pictures alone"});
     claims.push_back(
-        {"Figure 10", "the same, internal edges, textures, light", "not antialiased",
-         left(EdgeKind::kInternal) + ", " + left(EdgeKind::kTexture) + ", " + left(EdgeKind::kLight), "",
+        {"Figure 10", "the same, internal edges, textures, shadows", "not antialiased",
+         left(EdgeKind::kInternal) + ", " + left(EdgeKind::kTexture) + ", " + left(EdgeKind::kShadow), "",
          "the paper shows pictures alone; below 1 where an edge of another kind shares the pixel"});
 }
 
@@ -296,10 +181,10 @@ std::vector<FigureFile> makeConeScenes(const FigureInput& input) {
     Effort effort;
     if (input.quick) effort = {128, 72, 4, 2, {20, 14}};
     input.progress.stage("Figures 1, 5 and 10", 3);
-    Views first(input.quick ? "primitives" : "atrium", effort, input.progress);
+    MethodViews first = viewsOf(input.quick ? "primitives" : "atrium", effort, input.progress);
     for (const char* method : {"none", "ssaa:2", "ctss"}) first.make(method, input.progress);
     input.progress.advance(1);
-    Views limits("primitives", effort, input.progress);
+    MethodViews limits = viewsOf("primitives", effort, input.progress);
     for (const std::string& method : kLimitMethods) limits.make(method, input.progress);
     input.progress.advance(1);
     for (const char* method : {"ctss:weights=uniform", "ctss:weights=uniform,coverage=5", "ctss:coverage=5",

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paper_figures/cone_tracing_measure.h"
+#include "paper_figures/cone_view.h"
 #include "paper_figures/page_parts.h"
 #include "paper_figures/value_grid.h"
 #include "pipeline/compare/comparison.h"

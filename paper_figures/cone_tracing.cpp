@@ -1,4 +1,4 @@
-// Chubarau et al. 2023 on scenes that ship, and ctss-x: what each method's edges cost.
+// The methods for SDF scenes on scenes that ship: what each one's edges cost, and what is claimed of that.
 #include "paper_figures/cone_tracing.h"
 
 #include <fmt/format.h>
@@ -17,145 +17,175 @@ ConeTracingEffort effortFor(bool quick) {
                      "atrium",     "slabs",      "wires",        "thin"};
     if (!quick) return effort;
     effort.scenes = {"primitives", "wires"};
-    effort.width = effort.timed_width = 96, effort.height = effort.timed_height = 54, effort.runs = 1;
-    effort.reference_side = 8, effort.finer_side = 12, effort.facts_side = 4;
-    effort.picture_width = 96, effort.picture_height = 54;
+    effort.size = {96, 54}, effort.timed_size = {0, 0}, effort.runs = 1;
+    effort.reference_side = 8;
+    effort.picture_size = {96, 54};
     return effort;
 }
 
+using Scenes = std::vector<ConeScene>;
+using Value = std::optional<double>;
+
 /// Over scenes: a mean of what there is.
-template <class Value>
-std::optional<double> meanOver(const ConeTracing& found, bool paper_alone, const Value& value) {
+template <class Of>
+Value meanOver(const Scenes& scenes, bool paper_alone, const Of& of) {
     double sum = 0.0;
     int count = 0;
-    for (const ConeScene& scene : found.scenes) {
-        if (paper_alone && !scene.of_paper) continue;
-        if (const std::optional<double> v = value(scene)) sum += *v, ++count;
+    for (const ConeScene& scene : scenes) {
+        if (paper_alone && !scene.ofPaper()) continue;
+        if (const Value v = of(scene)) sum += *v, ++count;
     }
-    return count == 0 ? std::nullopt : std::optional(sum / count);
+    return count == 0 ? std::nullopt : Value(sum / count);
 }
 
-std::optional<double> meanRatio(const ConeTracing& found, const std::string& method, const std::string& to) {
-    const auto logs = meanOver(found, true, [&](const ConeScene& scene) -> std::optional<double> {
-        return std::log(scene.run(method).seconds / scene.run(to).seconds);
+Value meanRatio(const Scenes& scenes, const std::string& method, const std::string& to) {
+    const Value logs = meanOver(scenes, true, [&](const ConeScene& scene) -> Value {
+        const Value ratio = scene.ratioOf(method, to);
+        return ratio ? Value(std::log(*ratio)) : std::nullopt;
     });
-    return logs ? std::optional(std::exp(*logs)) : std::nullopt;
+    return logs ? Value(std::exp(*logs)) : std::nullopt;
 }
 
-/// dB over contours, or over all edges with kNone.
-Psnr psnrOf(const ConeScene& scene, const std::string& method, EdgeKind kind) {
-    const EdgePsnr& psnr = scene.run(method).psnr;
-    return kind == EdgeKind::kNone ? psnr.all : psnr.of(kind);
+/// dB; kNone: over all edges.
+Value gainOn(const ConeScene& scene, const std::string& better, const std::string& worse, EdgeKind kind) {
+    const Psnr a = scene.psnrOf(better, kind), b = scene.psnrOf(worse, kind);
+    return a && b ? Value(*a - *b) : std::nullopt;
 }
-std::optional<double> meanGain(const ConeTracing& found, const std::string& better, const std::string& worse,
-                               EdgeKind kind, bool paper_alone = false) {
-    return meanOver(found, paper_alone, [&](const ConeScene& scene) -> std::optional<double> {
-        const Psnr a = psnrOf(scene, better, kind), b = psnrOf(scene, worse, kind);
-        return a && b ? std::optional(*a - *b) : std::nullopt;
-    });
+Value meanGain(const Scenes& scenes, const std::string& better, const std::string& worse, EdgeKind kind,
+               bool paper_alone = false) {
+    return meanOver(scenes, paper_alone,
+                    [&](const ConeScene& scene) { return gainOn(scene, better, worse, kind); });
 }
 
-std::string text(const std::optional<double>& value, const char* format) {
-    return value ? fmt::format(fmt::runtime(format), *value) : "none";
+std::string text(const Value& value, const char* format) {
+    return value ? fmt::format(fmt::runtime(format), *value) : "not measured";
+}
+Value less(const Value& bar, const Value& value) {
+    return bar && value ? Value(*bar - *value) : std::nullopt;
 }
 
-ConeClaim gainClaim(const ConeTracing& found, const std::string& claim, const std::string& better,
-                    const std::string& worse, EdgeKind kind, const std::string& paper) {
-    const std::optional<double> gain = meanGain(found, better, worse, kind);
-    return {claim, text(gain, "{:+.2f} dB"), paper, "> 0 dB",
-            gain ? std::optional(*gain > 0.0) : std::nullopt};
-}
-ConeClaim costClaim(const ConeTracing& found, const std::string& claim, const std::string& method,
-                    const std::string& to, const std::string& paper, std::optional<double> bar) {
-    const std::optional<double> ratio = meanRatio(found, method, to);
-    return {claim, text(ratio, "{:.3f}"), paper, bar ? fmt::format("<= {:.2f}", *bar) : "",
-            ratio && bar ? std::optional(*ratio <= *bar) : std::nullopt};
+struct Asked {
+    std::string claim, better, worse;
+    EdgeKind kind;
+    std::string paper;
+};
+ConeClaim gainClaim(const Scenes& scenes, const Asked& asked) {
+    const Value gain = meanGain(scenes, asked.better, asked.worse, asked.kind);
+    return {asked.claim, text(gain, "{:+.2f} dB"), asked.paper, ">= 0 dB", gain, "dB"};
 }
 
-/// Of what ssaa:2 gains on contours of the paper's scenes.
-std::optional<double> shareOfGain(const ConeTracing& found, const std::string& method) {
-    const auto gain = meanGain(found, method, "none", EdgeKind::kContour, true),
-               of = meanGain(found, "ssaa:2", "none", EdgeKind::kContour, true);
-    return gain && of && *of > 0.0 ? std::optional(*gain / *of) : std::nullopt;
+struct Cost {
+    std::string claim, method, to, paper;
+    Value bar;
+};
+ConeClaim costClaim(const Scenes& scenes, const Cost& cost) {
+    const Value ratio = meanRatio(scenes, cost.method, cost.to);
+    return {cost.claim,
+            text(ratio, "{:.3f}"),
+            cost.paper,
+            cost.bar ? fmt::format("<= {:.2f}", *cost.bar) : "",
+            less(cost.bar, ratio),
+            ""};
 }
 
-/// The scene where ctss-x has least over the other, in dB over all edges.
-ConeClaim leastClaim(const ConeTracing& found, const std::string& other) {
-    std::optional<double> least;
+/// Of what ssaa:2 gains on contours of the paper's scenes, in dB.
+ConeClaim shareClaim(const Scenes& scenes, double bar) {
+    const Value gain = meanGain(scenes, "ctss", "none", EdgeKind::kContour, true),
+                of = meanGain(scenes, "ssaa:2", "none", EdgeKind::kContour, true);
+    const Value share = gain && of && *of > 0.0 ? Value(100.0 * *gain / *of) : std::nullopt;
+    return {"of ssaa:2's gain on contours of the paper's scenes, ctss has",
+            text(share, "{:.0f} %"),
+            "comparable to 4x to 8x supersampling",
+            fmt::format(">= {:.0f} %", 100.0 * bar),
+            share ? Value(*share - 100.0 * bar) : std::nullopt,
+            "%"};
+}
+
+/// The scene where ctss-x has least over the other, in dB over a kind.
+ConeClaim leastClaim(const Scenes& scenes, const std::string& other, EdgeKind kind) {
+    Value least;
     std::string where;
-    for (const ConeScene& scene : found.scenes) {
-        const Psnr a = psnrOf(scene, "ctss-x", EdgeKind::kNone), b = psnrOf(scene, other, EdgeKind::kNone);
-        if (a && b && (!least || *a - *b < *least)) least = *a - *b, where = scene.name;
+    for (const ConeScene& scene : scenes) {
+        const Value gain = gainOn(scene, "ctss-x", other, kind);
+        if (gain && (!least || *gain < *least)) least = gain, where = scene.name();
     }
-    return {fmt::format("ctss-x over {}, all edges, on the worst scene", other),
-            least ? fmt::format("{:+.2f} dB ({})", *least, where) : "none", "", ">= 0 dB",
-            least ? std::optional(*least >= 0.0) : std::nullopt};
+    const std::string edges =
+        kind == EdgeKind::kNone ? "all edges" : fmt::format("{} edges", judge::nameOf(kind));
+    return {fmt::format("ctss-x over {}, {}, on the worst scene", other, edges),
+            least ? fmt::format("{:+.2f} dB ({})", *least, where) : "not measured",
+            "",
+            ">= 0 dB",
+            least,
+            "dB"};
 }
 
 /// The scene whose time is furthest over what is allowed.
 template <class Bar>
-ConeClaim worstCost(const ConeTracing& found, const std::string& claim, const std::string& method,
+ConeClaim worstCost(const Scenes& scenes, const std::string& claim, const std::string& method,
                     const std::string& bar_text, bool paper_alone, const Bar& bar) {
-    double worst = -HUGE_VAL;
-    std::string where;
-    for (const ConeScene& scene : found.scenes) {
-        if (paper_alone && !scene.of_paper) continue;
-        const double over = scene.ratioOf(method) - bar(scene);
-        if (over > worst)
-            worst = over,
-            where = fmt::format("{:.2f}, allowed {:.2f} ({})", scene.ratioOf(method), bar(scene), scene.name);
+    ConeClaim worst{claim, "not measured", "", bar_text, {}, ""};
+    for (const ConeScene& scene : scenes) {
+        const Value ratio = scene.ratioOf(method);
+        if ((paper_alone && !scene.ofPaper()) || !ratio) continue;
+        const double allowed = bar(scene);
+        if (worst.margin && *worst.margin <= allowed - *ratio) continue;
+        worst.margin = allowed - *ratio;
+        worst.ours = fmt::format("{:.2f}, allowed {:.2f} ({})", *ratio, allowed, scene.name());
     }
-    return {claim, where, "", bar_text, worst <= 0.0};
+    return worst;
+}
+
+std::vector<ConeClaim> costClaims(const Scenes& scenes) {
+    return {costClaim(scenes,
+                      {"cost of ctss, geometric mean of the paper's scenes", "ctss", "none", "1.30", 1.15}),
+            worstCost(scenes, "cost of ctss, worst of the paper's scenes", "ctss", "<= 1.30", true,
+                      [](const ConeScene&) { return 1.30; }),
+            costClaim(scenes, {"cost of ctss-r", "ctss-r", "none", "1.16", 1.05}),
+            costClaim(scenes, {"cost of ssaa:2", "ssaa:2", "none", "4.16", {}}),
+            costClaim(scenes, {"cost of backtracing", "ctss", "ctss:backtrace=off", "negligible", {}}),
+            costClaim(scenes, {"cost of ctss+ssaa:2 in ssaa:3", "ctss+ssaa:2", "ssaa:3",
+                               "0.60 by Table 1, below 0.5 by section 4.2", 0.55})};
+}
+
+std::vector<ConeClaim> qualityClaims(const Scenes& scenes) {
+    constexpr EdgeKind kContour = EdgeKind::kContour, kAll = EdgeKind::kNone;
+    return {shareClaim(scenes, 0.7),
+            gainClaim(scenes, {"weighted over uniform samples, contours", "ctss", "ctss:weights=uniform",
+                               kContour, "smoother (Figure 5)"}),
+            gainClaim(scenes, {"6x6 over 4x8 masks, contours", "ctss", "ctss:mask=4x8", kContour,
+                               "closer to the cone's disk"}),
+            gainClaim(scenes, {"backtracing on over off, all edges", "ctss", "ctss:backtrace=off", kAll,
+                               "more reliable samples"}),
+            gainClaim(scenes,
+                      {"ctss+ssaa:2 over ssaa:3, contours", "ctss+ssaa:2", "ssaa:3", kContour, "comparable"}),
+            gainClaim(scenes,
+                      {"ctss+ssaa:2 over ssaa:3, all edges", "ctss+ssaa:2", "ssaa:3", kAll, "comparable"}),
+            gainClaim(scenes, {"ctss-r:coverage=2 over ctss-r, contours", "ctss-r:coverage=2", "ctss-r",
+                               kContour, "closer to ctss"})};
+}
+
+std::vector<ConeClaim> extensionClaims(const Scenes& scenes) {
+    std::vector<ConeClaim> claims{
+        leastClaim(scenes, "ssaa:2", EdgeKind::kNone),
+        worstCost(scenes, "cost of ctss-x, worst scene; p: share of complex pixels", "ctss-x",
+                  "<= 1.15 + 2 p, <= 1.7", false,
+                  [](const ConeScene& scene) {
+                      return std::min(1.15 + 2.0 * scene.shareOf("ctss-x", "pixels_complex"), 1.7);
+                  }),
+        leastClaim(scenes, "ssaa:3", EdgeKind::kNone),
+        worstCost(scenes, "cost of ctss-x where it stands for ssaa:3, worst scene", "ctss-x", "<= 2.5", false,
+                  [](const ConeScene&) { return 2.5; })};
+    for (const EdgeKind kind : kEdgeKinds) claims.push_back(leastClaim(scenes, "ssaa:2", kind));
+    return claims;
 }
 
 }  // namespace
 
-const ConeRun& ConeScene::run(const std::string& method) const {
-    for (const ConeRun& run : runs)
-        if (run.method == method) return run;
-    return runs.front();
-}
-
 std::vector<ConeClaim> claimsOf(const ConeTracing& found) {
-    const auto share = [&](const std::string& claim, const std::string& method, double bar) {
-        const auto got = shareOfGain(found, method);
-        return ConeClaim{claim, got ? fmt::format("{:.0f} %", 100.0 * *got) : "none",
-                         "comparable to 4x to 8x supersampling", fmt::format(">= {:.0f} %", 100.0 * bar),
-                         got ? std::optional(*got >= bar) : std::nullopt};
-    };
-    const auto gained = [&](const char* claim, const char* better, const char* worse, EdgeKind kind,
-                            const char* paper) {
-        return gainClaim(found, claim, better, worse, kind, paper);
-    };
-    constexpr EdgeKind kContour = EdgeKind::kContour, kAll = EdgeKind::kNone;
-    return {
-        costClaim(found, "cost of ctss, geometric mean of the paper's scenes", "ctss", "none", "1.30", 1.15),
-        worstCost(found, "cost of ctss, worst of the paper's scenes", "ctss", "<= 1.30", true,
-                  [](const ConeScene&) { return 1.30; }),
-        costClaim(found, "cost of ctss-r", "ctss-r", "none", "1.16", 1.05),
-        costClaim(found, "cost of ssaa:2", "ssaa:2", "none", "4.16", std::nullopt),
-        share("of ssaa:2's gain on contours of the paper's scenes, ctss has", "ctss", 0.7),
-        gained("weighted over uniform samples, contours", "ctss", "ctss:weights=uniform", kContour,
-               "smoother (Figure 5)"),
-        gained("6x6 over 4x8 masks, contours", "ctss", "ctss:mask=4x8", kContour,
-               "closer to the cone's disk"),
-        gained("backtracing on over off, all edges", "ctss", "ctss:backtrace=off", kAll,
-               "more reliable samples"),
-        costClaim(found, "cost of backtracing", "ctss", "ctss:backtrace=off", "negligible", std::nullopt),
-        gained("ctss+ssaa:2 over ssaa:3, all edges", "ctss+ssaa:2", "ssaa:3", kAll, "comparable"),
-        costClaim(found, "cost of ctss+ssaa:2 in ssaa:3", "ctss+ssaa:2", "ssaa:3",
-                  "0.60 by Table 1, below 0.5 by section 4.2", 0.55),
-        gained("ctss-r:coverage=2 over ctss-r, contours", "ctss-r:coverage=2", "ctss-r", kContour,
-               "closer to ctss"),
-        leastClaim(found, "ssaa:2"),
-        worstCost(found, "cost of ctss-x, worst scene", "ctss-x", "<= 1.15 + 2 p, p complex pixels; <= 1.7",
-                  false,
-                  [](const ConeScene& scene) {
-                      return std::min(1.15 + 2.0 * scene.run("ctss-x").shareOf("pixels_complex"), 1.7);
-                  }),
-        leastClaim(found, "ssaa:3"),
-        worstCost(found, "cost of ctss-x where it stands for ssaa:3, worst scene", "ctss-x", "<= 2.5", false,
-                  [](const ConeScene&) { return 2.5; })};
+    std::vector<ConeClaim> claims = costClaims(found.scenes);
+    for (auto* of : {&qualityClaims, &extensionClaims})
+        for (ConeClaim& claim : of(found.scenes)) claims.push_back(std::move(claim));
+    return claims;
 }
 
 std::vector<FigureFile> makeConeTracing(const FigureInput& input) {
@@ -165,8 +195,11 @@ std::vector<FigureFile> makeConeTracing(const FigureInput& input) {
             input.claims.push_back(
                 {"sections 3 to 5", claim.claim, claim.paper, claim.ours, "",
                  "scenes of ours of the same kinds, on a CPU: the paper's are not published"});
-    std::vector<FigureFile> files{{"report.html", coneTracingHtml(found)},
-                                  {"results.json", coneTracingJson(found)}};
+    const std::vector<FigurePlot> plots = coneTracingPlots(found);
+    std::vector<FigureFile> files{{"report.html", coneTracingHtml(found, plots)},
+                                  {"results.json", coneTracingJson(found)},
+                                  {"results.csv", coneTracingCsv(found)}};
+    appendPlotFiles(plots, files);
     appendPictureFiles(found.pictures, files);
     return files;
 }

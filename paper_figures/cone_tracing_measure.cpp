@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "paper_figures/compared_scene.h"
+#include "paper_figures/cone_table.h"
 #include "paper_figures/cone_tracing_pictures.h"
+#include "paper_figures/temporary_folder.h"
+#include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
-#include "pipeline/load_scene.h"
-#include "pipeline/methods/field_frame.h"
 #include "pipeline/methods/stopwatch.h"
-#include "pipeline/resolve_camera.h"
-#include "pipeline/scene_catalog.h"
 
 namespace edgewise::figures {
 namespace {
@@ -22,149 +21,139 @@ const std::vector<std::string> kMethods{"none",
                                         "ssaa:3",
                                         "ctss",
                                         "ctss-r",
-                                        "ctss-r:coverage=2",
                                         "ctss+ssaa:2",
                                         "ctss-x",
+                                        "fxaa",
+                                        "smaa",
+                                        "lottes",
+                                        "ctss-r:coverage=2",
                                         "ctss:weights=uniform",
                                         "ctss:mask=4x8",
                                         "ctss:backtrace=off"};
+/// Whose times the aims speak of.
+const std::vector<std::string> kTimedMethods{"none",   "ssaa:2",      "ssaa:3", "ctss",
+                                             "ctss-r", "ctss+ssaa:2", "ctss-x", "ctss:backtrace=off"};
 
-/// Table 1 at 1280x720: ratios of 4xSSAA, CTSS and CTSS-R. Its Sponza is beside our atrium.
-const std::map<std::string, std::map<std::string, double>> kTable1{
-    {"primitives", {{"ssaa:2", 4.46}, {"ctss", 1.30}, {"ctss-r", 1.10}}},
-    {"random-box", {{"ssaa:2", 4.17}, {"ctss", 1.37}, {"ctss-r", 1.29}}},
-    {"random-shape", {{"ssaa:2", 4.19}, {"ctss", 1.32}, {"ctss-r", 1.23}}},
-    {"atrium", {{"ssaa:2", 4.29}, {"ctss", 1.37}, {"ctss-r", 1.05}}},
-    {"sparse-shape", {{"ssaa:2", 4.25}, {"ctss", 1.28}, {"ctss-r", 1.16}}}};
+class Measurement {
+  public:
+    Measurement(const ConeTracingEffort& effort, Progress& progress)
+        : effort_(effort),
+          progress_(progress),
+          schedule_{effort.runs, effort.budget_seconds, scratch_.path()} {}
 
-std::optional<double> publishedRatio(const std::string& scene, const std::string& method) {
-    const auto row = kTable1.find(scene);
-    if (row == kTable1.end()) return std::nullopt;
-    const auto cell = row->second.find(method);
-    return cell == row->second.end() ? std::nullopt : std::optional(cell->second);
-}
-
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-struct SquaredErrors {
-    double sum = 0.0;
-    std::uint64_t pixels = 0;
-    void add(const glm::dvec4& d) { sum += d.x * d.x + d.y * d.y + d.z * d.z, ++pixels; }
-    Psnr psnr() const {
-        if (pixels == 0 || sum == 0.0) return std::nullopt;
-        return -10.0 * std::log10(sum / (3.0 * static_cast<double>(pixels)));
+    ConeTracing run() {
+        Stopwatch watch;
+        found_.quick = effort_.quick, found_.runs = effort_.runs;
+        for (const std::string& name : effort_.scenes) guarded(name, [&] { measure(name); });
+        found_.timed_on = effort_.timed_size.x == 0
+                              ? fmt::format("CPU, {}x{}", effort_.size.x, effort_.size.y)
+                              : fmt::format("Vulkan, {}x{}", effort_.timed_size.x, effort_.timed_size.y);
+        found_.pictures = coneTracingPictures(effort_, progress_);
+        found_.seconds = watch.lap();
+        return std::move(found_);
     }
+
+  private:
+    /// What a scene lacks is told, and the rest goes on.
+    template <class Work>
+    void guarded(const std::string& name, const Work& work) {
+        try {
+            work();
+        } catch (const compare::WorkerFailure& failure) {
+            found_.notes.push_back(name + ": " + failure.what());
+        } catch (const InputError& error) {
+            found_.notes.push_back(name + ": " + error.what());
+        }
+        if (progress_.cancelled()) throw Interrupted();
+    }
+
+    void measure(const std::string& name) {
+        Labelled labelled(progress_, name);
+        const std::string reference = fmt::format("ssaa:{}", effort_.reference_side);
+        ConeScene scene{compareOn({name, effort_.size.x, effort_.size.y}, reference, kMethods, schedule_,
+                                  labelled, {true, true}),
+                        {}};
+        note(name, scene.judged.rows);
+        if (effort_.timed_size.x > 0) {
+            ComparedPicture picture{name, effort_.timed_size.x, effort_.timed_size.y};
+            picture.device = "vulkan";
+            scene.timed = timesOn(picture, kTimedMethods, schedule_, labelled);
+            note(name + " on Vulkan", scene.timed);
+        }
+        found_.scenes.push_back(std::move(scene));
+    }
+    void note(const std::string& where, const std::vector<compare::Row>& rows) {
+        for (const compare::Row& row : rows)
+            if (!row.why.empty())
+                found_.notes.push_back(fmt::format("{}, {}: {}", where, row.method, row.why));
+    }
+
+    const ConeTracingEffort& effort_;
+    Progress& progress_;
+    const TemporaryFolder scratch_;
+    compare::ScheduleOptions schedule_;
+    ConeTracing found_;
 };
 
-/// `kinds`: of the film, `width` wide; the pictures may be parts of it.
-EdgePsnr edgePsnr(const ImageBuffer& image, const ImageBuffer& reference, const std::vector<EdgeKind>& kinds,
-                  int width) {
-    SquaredErrors all;
-    std::map<EdgeKind, SquaredErrors> by_kind;
-    for (int y = image.box.y0; y < image.box.y1; ++y)
-        for (int x = image.box.x0; x < image.box.x1; ++x) {
-            const EdgeKind kind = kinds[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                        static_cast<std::size_t>(x)];
-            if (kind == EdgeKind::kNone) continue;
-            const glm::dvec4 d = image.rgba[image.index(x, y)] - reference.rgba[reference.index(x, y)];
-            all.add(d), by_kind[kind].add(d);
-        }
-    EdgePsnr found{all.psnr(), {}};
-    for (const auto& [kind, errors] : by_kind) found.by_kind[kind] = errors.psnr();
-    return found;
+const compare::Row* find(const std::vector<compare::Row>& rows, const std::string& method) {
+    const auto found = std::ranges::find(rows, method, &compare::Row::method);
+    return found == rows.end() ? nullptr : &*found;
 }
 
-/// By turns, so that what else the machine does meets all alike.
-void timeMethods(ConeScene& scene, const ConeTracingEffort& effort, Progress& progress) {
-    const ConeView view(scene.name, effort.timed_width, effort.timed_height);
-    std::vector<std::vector<double>> seconds(kMethods.size());
-    for (int run = 0; run < effort.runs; ++run)
-        for (std::size_t m = 0; m < kMethods.size(); ++m) {
-            Stopwatch watch;
-            const MethodResult made = view.made(kMethods[m], progress);
-            seconds[m].push_back(watch.lap() - made.setup_seconds);
-            scene.runs[m].counts = made.counts;
-        }
-    for (std::size_t m = 0; m < kMethods.size(); ++m) scene.runs[m].seconds = medianOf(seconds[m]);
-    scene.timed_width = view.film.width, scene.timed_height = view.film.height;
-}
-
-PixelBox middleQuarter(const Film& film) {
-    return {film.width / 4, film.height / 4, film.width - film.width / 4, film.height - film.height / 4};
-}
-
-void judgeMethods(ConeScene& scene, const ConeTracingEffort& effort, Progress& progress) {
-    ConeView view(scene.name, effort.width, effort.height);
-    scene.width = view.film.width, scene.height = view.film.height;
-    Progress quiet;
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(quiet), effort.facts_side);
-    for (const EdgeKind kind : kinds) ++scene.pixels[kind];
-    const ImageBuffer reference = view.reference(effort.reference_side, progress).image;
-    for (ConeRun& run : scene.runs)
-        run.psnr = edgePsnr(view.made(run.method, progress).image, reference, kinds, view.film.width);
-    scene.plain_reference = edgePsnr(view.made(fmt::format("ssaa:{}", effort.reference_side), progress).image,
-                                     reference, kinds, view.film.width);
-    view.film.crop = middleQuarter(view.film);
-    scene.reference =
-        edgePsnr(view.reference(effort.finer_side, progress).image, reference, kinds, view.film.width);
-}
-
-ConeScene measureScene(const std::string& name, const ConeTracingEffort& effort, Progress& progress) {
-    ConeScene scene;
-    scene.name = name, scene.of_paper = kTable1.contains(name);
-    for (const std::string& method : kMethods) {
-        ConeRun run;
-        run.method = method, run.published = publishedRatio(name, method);
-        scene.runs.push_back(std::move(run));
-    }
-    timeMethods(scene, effort, progress);
-    progress.advance(1);
-    judgeMethods(scene, effort, progress);
-    progress.advance(1);
-    return scene;
+std::optional<double> secondsIn(const compare::Row* row) {
+    if (!row || row->seconds.empty()) return std::nullopt;
+    return compare::spreadOf(row->seconds).median;
 }
 
 }  // namespace
 
-ConeView::ConeView(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
-    CameraOptions wanted;
-    wanted.size = glm::ivec2(width, height);
-    camera = resolveCamera(scene, wanted, film);
-    options.device = DeviceChoice::kCpu;
-    options.background = scene.field->background.value_or(glm::dvec3(0.0));
+bool ConeScene::ofPaper() const {
+    return publishedRatio(name(), "none").has_value();
 }
 
-MethodResult ConeView::made(const std::string& method, Progress& progress) const {
-    if (progress.cancelled()) throw Interrupted();
-    Progress quiet;
-    return runMethod(parseMethod(method), input(quiet));
+const compare::Row* ConeScene::row(const std::string& method) const {
+    return find(judged.rows, method);
 }
 
-MethodResult ConeView::reference(int per_side, Progress& progress) const {
-    if (progress.cancelled()) throw Interrupted();
-    FieldSettings settings;
-    settings.trace.threshold /= per_side;
-    Progress quiet;
-    return traceFiltered(input(quiet), settings, per_side, makeCpuFieldTracer);
+judge::KindError ConeScene::errorOf(const std::string& method, EdgeKind kind) const {
+    const compare::Row* own = row(method);
+    if (!own || !own->kinds) return {};
+    return kind == EdgeKind::kNone ? own->kinds->edges() : own->kinds->of(kind);
+}
+
+std::optional<double> ConeScene::secondsOf(const std::string& method) const {
+    return timed.empty() ? secondsIn(row(method)) : secondsIn(find(timed, method));
+}
+
+std::optional<double> ConeScene::ratioOf(const std::string& method, const std::string& to) const {
+    const std::optional<double> own = secondsOf(method), other = secondsOf(to);
+    return own && other ? std::optional(*own / *other) : std::nullopt;
+}
+
+double ConeScene::shareOf(const std::string& method, const std::string& count) const {
+    const compare::Row* own = row(method);
+    if (!own) return 0.0;
+    const auto found = own->counts.find(count), all = own->counts.find("pixels");
+    if (found == own->counts.end() || all == own->counts.end() || all->second == 0) return 0.0;
+    return static_cast<double>(found->second) / static_cast<double>(all->second);
+}
+
+std::uint64_t ConeScene::pixelsOf(EdgeKind kind) const {
+    for (const compare::Row& row : judged.rows)
+        if (row.kinds) return row.kinds->of(kind).pixels;
+    return 0;
+}
+
+std::optional<double> publishedRatio(const std::string& scene, const std::string& method) {
+    constexpr int kWidth = 1280;
+    for (const ConeTableRow& row : paperTable())
+        for (std::size_t m = 0; m < kTableMethods.size(); ++m)
+            if (row.scene == scene && row.width == kWidth && kTableMethods[m] == method) return row.paper[m];
+    return std::nullopt;
 }
 
 ConeTracing measureConeTracing(const ConeTracingEffort& effort, Progress& progress) {
-    progress.stage("scenes", 2 * effort.scenes.size() + 1);
-    Stopwatch watch;
-    ConeTracing found;
-    found.quick = effort.quick, found.runs = effort.runs;
-    found.reference_side = effort.reference_side, found.finer_side = effort.finer_side;
-    found.facts_side = effort.facts_side;
-    for (const std::string& name : effort.scenes)
-        found.scenes.push_back(measureScene(name, effort, progress));
-    found.pictures = coneTracingPictures(effort, progress);
-    progress.advance(1);
-    found.seconds = watch.lap();
-    return found;
+    return Measurement(effort, progress).run();
 }
 
 }  // namespace edgewise::figures

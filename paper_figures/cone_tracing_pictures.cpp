@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+
+#include "paper_figures/method_views.h"
 
 namespace edgewise::figures {
 namespace {
@@ -44,8 +47,8 @@ PictureRow weights(const ConeTracingEffort& effort, Progress& progress) {
                    "An outline against the background: uniform weights extrude it, visibility's smooth it; "
                    "with cones of five pixels it is clearer still. Pixels are 8 times as large.",
                    {}};
-    ConeView view("primitives", effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
+    ConeView view("primitives", effort.picture_size.x, effort.picture_size.y);
+    const std::vector<EdgeKind> kinds = judge::edgeKindsOf(view.input(progress), 4);
     std::vector<EdgeKind> contours = kinds;
     for (EdgeKind& kind : contours)
         if (kind != EdgeKind::kContour) kind = EdgeKind::kNone;
@@ -66,7 +69,7 @@ PictureRow affected(const std::string& scene, const ConeTracingEffort& effort, P
                    "White: of more than one colour. ctss also mends edges whose ray meets the near surface; "
                    "ctss-r only those beside it; ctss-x also creases, textures' and shadows' borders.",
                    {}};
-    const ConeView view(scene, effort.picture_width, effort.picture_height);
+    const ConeView view(scene, effort.picture_size.x, effort.picture_size.y);
     row.pictures.push_back(pictureOf(view.made("none", progress).image, "affected_" + scene, "the picture"));
     for (const char* method : {"ctss", "ctss-r", "ctss-x"}) {
         ImageBuffer image = view.made(method, progress).image;
@@ -86,30 +89,22 @@ PictureRow affected(const std::string& scene, const ConeTracingEffort& effort, P
 /// Figure 8: the part with most edges, 8 times as large.
 PictureRow edges(const std::string& scene, const ConeTracingEffort& effort, Progress& progress) {
     PictureRow row{fmt::format("At edges, {}", scene), "Pixels are 8 times as large.", {}};
-    ConeView view(scene, effort.picture_width, effort.picture_height);
-    const std::vector<EdgeKind> kinds = edgeKindsOf(view.input(progress), 4);
+    ConeView view(scene, effort.picture_size.x, effort.picture_size.y);
+    const std::vector<EdgeKind> kinds = judge::edgeKindsOf(view.input(progress), 4);
+    const PixelBox whole = view.film.crop;
     view.film.crop = busiestPart(kinds, view.film);
     for (const std::string& method :
          {std::string("none"), std::string("ctss-r"), std::string("ctss"), std::string("ssaa:2"),
           std::string("ctss+ssaa:2"), std::string("ssaa:3"), std::string("ctss-x")})
         row.pictures.push_back(pictureOf(view.made(method, progress).image,
                                          "edges_" + scene + "_" + fileName(method), method, kEnlarged));
-    row.pictures.push_back(pictureOf(view.reference(effort.reference_side, progress).image,
+    row.pictures.push_back(pictureOf(view.made(fmt::format("ssaa:{}", effort.reference_side), progress).image,
                                      "edges_" + scene + "_reference", "reference", kEnlarged));
-    ImageBuffer colored(view.film.crop);
-    for (int y = colored.box.y0; y < colored.box.y1; ++y)
-        for (int x = colored.box.x0; x < colored.box.x1; ++x) {
-            const EdgeKind kind = kinds[static_cast<std::size_t>(y * view.film.width + x)];
-            const glm::dvec3 color = kind == EdgeKind::kContour    ? glm::dvec3(0.8, 0.05, 0.05)
-                                     : kind == EdgeKind::kInternal ? glm::dvec3(0.05, 0.15, 0.9)
-                                     : kind == EdgeKind::kTexture  ? glm::dvec3(0.05, 0.5, 0.05)
-                                     : kind == EdgeKind::kLight    ? glm::dvec3(0.9, 0.7, 0.05)
-                                                                   : glm::dvec3(0.02);
-            colored.rgba[colored.index(x, y)] = glm::dvec4(color, 1.0);
-        }
     row.pictures.push_back(
-        pictureOf(colored, "edges_" + scene + "_kinds",
-                  "kinds of edges: red contours, blue internal, green textures, yellow light", kEnlarged));
+        pictureOf(partOf(judge::edgeKindPicture(kinds, whole), view.film.crop), "edges_" + scene + "_kinds",
+                  "kinds of edges: red contours, blue internal, green textures, yellow shadows, violet "
+                  "reflections",
+                  kEnlarged));
     return row;
 }
 

@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "paper_figures/edge_kinds.h"
 #include "pipeline/film.h"
+#include "pipeline/judge/edge_kinds.h"
 
 namespace edgewise::figures {
+
+using judge::EdgeKind, judge::kEdgeKinds;
 
 /// The part with most pixels of the kind, each pixel of another kind counting against one, that meets none of
 /// `others`. `kinds`: of the whole film, row by row. A part without any where there is none.

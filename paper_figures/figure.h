@@ -44,6 +44,7 @@ std::vector<FigureFile> makeFilterStudy(const FigureInput& input);
 std::vector<FigureFile> makePerformance(const FigureInput& input);
 std::vector<FigureFile> makeSphereTracing(const FigureInput& input);
 std::vector<FigureFile> makeConeTracing(const FigureInput& input);
+std::vector<FigureFile> makeConeBeyond(const FigureInput& input);
 std::vector<FigureFile> makeNsaaPixel(const FigureInput& input);
 std::vector<FigureFile> makeNsaaStages(const FigureInput& input);
 std::vector<FigureFile> makeNsaaGather(const FigureInput& input);

@@ -1,8 +1,10 @@
 #include "paper_figures/lottes_study.h"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 
-#include "paper_figures/cone_tracing_measure.h"
+#include "paper_figures/cone_view.h"
 #include "pipeline/error.h"
 #include "pipeline/judge/metrics.h"
 #include "pipeline/methods/temporal_mean.h"
@@ -36,7 +38,7 @@ class Study {
 
     LottesStudy made() {
         progress_.stage("lottes", 2 * static_cast<std::size_t>(out_.effort.frames) + 2);
-        out_.reference = view_.reference(out_.effort.reference_side, inner_).image;
+        out_.reference = view_.made(fmt::format("ssaa:{}", out_.effort.reference_side), inner_).image;
         progress_.advance(1);
         out_.none = view_.made("none", inner_).image;
         progress_.advance(1);

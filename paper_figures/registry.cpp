@@ -37,7 +37,9 @@ const std::vector<Figure>& figureRegistry() {
         {"cone-table", "Cone-traced supersampling, Table 1", "times of five scenes at two sizes",
          makeConeTable},
         {"cone-tracing", "Cone-traced supersampling, sections 3 to 5",
-         "what cones cost and mend, by kinds of edges, and what lines divide exactly", makeConeTracing},
+         "error against run time of methods for SDF scenes by kinds of edges, and what is claimed of it",
+         makeConeTracing},
+        {"cone-beyond", "ours", "ctss-x against CTSS: edges of each kind side by side", makeConeBeyond},
     };
     return figures;
 }

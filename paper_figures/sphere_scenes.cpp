@@ -1,7 +1,7 @@
 // Enhanced sphere tracing, Figures 1, 10 and 11: scenes of those kinds, as they look.
 #include <fmt/format.h>
 
-#include "paper_figures/cone_tracing_measure.h"
+#include "paper_figures/cone_view.h"
 #include "paper_figures/page_parts.h"
 #include "paper_figures/picture_row.h"
 #include "pipeline/error.h"

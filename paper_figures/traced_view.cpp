@@ -3,20 +3,12 @@
 #include <cmath>
 
 #include "pipeline/error.h"
+#include "pipeline/field_shading.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
 
 namespace edgewise::figures {
-
-std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
-    auto copy = std::make_shared<sdf::FieldScene>(scene);
-    for (sdf::SurfaceMaterial& material : copy->materials) {
-        material.shading = sdf::SurfaceMaterial::Shading::kUnlit;
-        material.reflectance = material.transmittance = 0.0;
-    }
-    return copy;
-}
 
 TracedView::TracedView(const std::string& name, int width, int height) : scene(loadScene(findScene(name))) {
     scene.field = unlit(*scene.field);

@@ -8,9 +8,6 @@
 
 namespace edgewise::figures {
 
-/// The scene with materials as they are: no light, nothing mirrored.
-std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene);
-
 /// Primary rays alone, as Keinert et al. time them: no light, no mirrors, no glass.
 struct TracedView {
     Scene scene;

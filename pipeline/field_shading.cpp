@@ -27,6 +27,15 @@ sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSetting
     return settings;
 }
 
+std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene) {
+    auto copy = std::make_shared<sdf::FieldScene>(scene);
+    for (sdf::SurfaceMaterial& material : copy->materials) {
+        material.shading = sdf::SurfaceMaterial::Shading::kUnlit;
+        material.reflectance = material.transmittance = 0.0;
+    }
+    return copy;
+}
+
 const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene) {
     const std::string who = fmt::format("method '{}'", method);
     if (!scene.field)

@@ -12,6 +12,9 @@ namespace edgewise {
 sdf::ShadingSettings fieldShading(const MethodInput& in, const sdf::TraceSettings& trace,
                                   bool emission_counts);
 
+/// The scene with materials as they are: no light, nothing mirrored or refracted.
+std::shared_ptr<const sdf::FieldScene> unlit(const sdf::FieldScene& scene);
+
 /// The scene's field. Throws InputError, for the method of that name, for scenes of triangles and of GLSL.
 const sdf::FieldScene& requireTree(const std::string& method, const Scene& scene);
 

@@ -20,6 +20,7 @@
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/judge_row.h"
+#include "pipeline/compare/kinds_tables.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/schedule.h"
 #include "pipeline/compare/svg_pdf.h"
@@ -80,9 +81,13 @@ class Study {
         options_.runs = readRuns("--runs", arguments.runs);
         if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
-        comparison_ = {arguments.picture.scene, arguments.reference,
-                       arguments.command_line,  version(),
-                       compare::thisMachine(),  {}};
+        comparison_ = {arguments.picture.scene,
+                       arguments.reference,
+                       arguments.command_line,
+                       version(),
+                       compare::thisMachine(),
+                       {},
+                       {}};
         for (const std::string& method : arguments.methods) {
             const FilterArguments filter = filterFor(arguments, method);
             comparison_.rows.push_back(compare::rowOf(parseMethod(method), readFilter(filter)));
@@ -100,6 +105,7 @@ class Study {
         write();
         for (const Row& row : comparison_.rows)
             if (!row.why.empty()) spdlog::warn("'{}': {}", row.method, row.why);
+        if (!arguments_.quiet) fmt::print("{}", compare::kindsText(comparison_));
     }
 
   private:
@@ -124,11 +130,22 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_,
+                                              {true, references_.size() == 1});
+        if (reference.made.error) comparison_.reference_error = reference.made.error;
         size_ = row.size;
+        if (references_.size() == 1) writeKinds(reference.made);
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
         writePicture(reference.made.picture, fileName("reference-" + filter.name), row.device);
         return reference;
+    }
+
+    void writeKinds(const compare::ReferencePicture& made) {
+        if (made.kinds.empty()) return;
+        kinds_png_ = "edge-kinds.png";
+        WriteOptions options;
+        options.width = size_.x, options.height = size_.y;
+        writeImage(folder_ / kinds_png_, judge::edgeKindPicture(made.kinds, made.picture.box), options);
     }
 
     void writePicture(const ImageBuffer& picture, const std::string& name, const std::string& device) {
@@ -190,7 +207,7 @@ class Study {
         writeAtomically(folder_ / "pareto.pdf", compare::svgPdf(svg, "pareto.pdf"));
         writeAtomically(folder_ / "report.html",
                         compare::comparisonHtml(comparison_, folder_.path(),
-                                                references_.at(keyOf(arguments_.filter)).png));
+                                                references_.at(keyOf(arguments_.filter)).png, kinds_png_));
     }
 
     const CompareArguments& arguments_;
@@ -201,6 +218,7 @@ class Study {
     std::vector<Contender> contenders_;
     std::map<std::string, Reference> references_;
     glm::ivec2 size_{0};
+    std::string kinds_png_;
 };
 
 void runCompare(const CompareArguments& arguments) {
@@ -225,8 +243,10 @@ void addCompare(CLI::App& program, const std::string& command_line) {
     arguments->command_line = command_line;
     addPictureOptions(*command, arguments->picture);
     command
-        ->add_option("-o,--output", arguments->folder,
-                     "results.json, results.csv, table.tex, report.html, pareto.svg, pareto.pdf, pictures")
+        ->add_option(
+            "-o,--output", arguments->folder,
+            "results.json, results.csv, table.tex, report.html, pareto.svg, pareto.pdf, pictures; of "
+            "SDF scenes errors by kinds of edges too")
         ->type_name("DIR")
         ->required();
     command->add_option("--method", arguments->methods, "repeated; `edgewise methods` lists them")

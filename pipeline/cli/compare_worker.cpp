@@ -15,6 +15,7 @@
 #include "pipeline/cli/statistics.h"
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/error.h"
+#include "pipeline/judge/edge_kinds.h"
 #include "pipeline/methods/edge_classes.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/progress_bar.h"
@@ -47,6 +48,8 @@ class Worker {
         if (what == "open") return open();
         if (what == "run") return run();
         if (what == "edges") return edges();
+        if (what == "kinds") return kinds();
+        if (what == "check") return check(request);
         compare::writeRaw(request.at("path").get<std::string>(), made_.image);
         return Json::object();
     }
@@ -62,8 +65,7 @@ class Worker {
     Json run() {
         made_ = {};
         Stopwatch watch;
-        made_ = runMethod(method_,
-                          {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_});
+        made_ = runMethod(method_, inputOf(picture_->film));
         const double seconds = watch.lap() - made_.setup_seconds;
         throwIfInterrupted();
         Json reply = Json::parse(statisticsJson(made_));
@@ -73,13 +75,32 @@ class Worker {
     }
 
     /// A digit a pixel.
-    Json edges() {
+    template <class Classes>
+    static Json classesJson(const Classes& classes) {
         std::string digits;
-        for (const EdgeClass edge_class :
-             edgeClasses({picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_}))
-            digits += static_cast<char>('0' + static_cast<int>(edge_class));
+        for (const auto one : classes) digits += static_cast<char>('0' + static_cast<int>(one));
         throwIfInterrupted();
         return {{"classes", digits}};
+    }
+    Json edges() { return classesJson(edgeClasses(inputOf(picture_->film))); }
+    /// None but of an SDF scene.
+    Json kinds() {
+        constexpr int kLattice = 8;  // as fine as what ssaa:8 tells of a pixel
+        if (!picture_->scene.field) return {{"classes", ""}};
+        return classesJson(judge::edgeKindsOf(inputOf(picture_->film), kLattice));
+    }
+
+    /// The picture by another method, on some rows.
+    Json check(const Json& request) {
+        Film film = picture_->film;
+        film.crop.y0 = request.at("rows")[0], film.crop.y1 = request.at("rows")[1];
+        made_ = runMethod(parseMethod(request.at("method").get<std::string>()), inputOf(film));
+        throwIfInterrupted();
+        return Json::object();
+    }
+
+    MethodInput inputOf(const Film& film) {
+        return {picture_->scene, picture_->camera, film, filter_, options_, progress_};
     }
 
     const WorkerArguments& arguments_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analytic/prefilter.h"
+#include "pipeline/judge/kind_errors.h"
 #include "pipeline/judge/metrics.h"
 #include "pipeline/methods/method.h"
 
@@ -46,6 +47,7 @@ struct Row {
     double peak_mib = 0.0;
     std::optional<judge::ErrorMetrics> error;  ///< none where no picture was made
     std::optional<FewEdgesError> few_edges;    ///< with a reference that is nsaa
+    std::optional<judge::KindErrors> kinds;    ///< where kinds of edges are told: SDF scenes
     std::optional<double> bias_half_width;     ///< of error->bias's 95 % interval; none for small pictures
     std::vector<PlanEntry> plan;
     std::vector<std::string> notes;
@@ -64,10 +66,17 @@ struct Machine {
 };
 Machine thisMachine();
 
+/// How far a reference of samples is off itself, judged by one of more samples on some of the picture's rows.
+struct ReferenceError {
+    std::string judge;  ///< the method
+    judge::KindErrors kinds;
+};
+
 struct Comparison {
     std::string scene, reference, command, version;
     Machine machine;
     std::vector<Row> rows;
+    std::optional<ReferenceError> reference_error;  ///< of SDF scenes with a reference ssaa:K
 };
 
 }  // namespace edgewise::compare

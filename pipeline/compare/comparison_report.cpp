@@ -9,6 +9,7 @@
 #include "pipeline/compare/base64.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/error_slope.h"
+#include "pipeline/compare/kinds_tables.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/error.h"
@@ -34,7 +35,7 @@ std::string scriptJson(const nlohmann::ordered_json& json) {
 }
 
 std::string picturesJson(const Comparison& comparison, const std::filesystem::path& folder,
-                         const std::string& reference_png) {
+                         const std::string& reference_png, const std::string& kinds_png) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     json.push_back(
         {{"name", "reference: " + comparison.reference}, {"picture", embedded(folder / reference_png)}});
@@ -44,6 +45,8 @@ std::string picturesJson(const Comparison& comparison, const std::filesystem::pa
                             {"picture", embedded(folder / row.png)},
                             {"signed", embedded(folder / row.signed_map)},
                             {"absolute", embedded(folder / row.absolute_map)}});
+    if (!kinds_png.empty())
+        json.push_back({{"name", "kinds of edges"}, {"picture", embedded(folder / kinds_png)}});
     return scriptJson(json);
 }
 
@@ -169,7 +172,7 @@ std::string viewer() {
 }  // namespace
 
 std::string comparisonHtml(const Comparison& c, const std::filesystem::path& folder,
-                           const std::string& reference_png) {
+                           const std::string& reference_png, const std::string& kinds_png) {
     std::string plans;
     for (const Row& row : c.rows) plans += planOf(row);
     return fmt::format(
@@ -183,13 +186,15 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
                escapedHtml(c.command), escapedHtml(c.machine.processor), c.machine.cores,
                c.machine.memory_mib) +
            "<div class='card'>" + paretoSvg(c) + slopesText(c) +
-           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) +
-           "</div>\n<h2>Pictures</h2><div class='card'>" + viewer() +
+           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) + "</div>\n" +
+           (tellsKinds(c) ? "<h2>By kinds of edges</h2>" + kindsTable(c) : "") +
+           "<h2>Pictures</h2><div class='card'>" + viewer() +
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +
+           (tellsKinds(c) ? "<dl>" + judge::edgeKindDefinitions() + "</dl>" : "") +
            "</div></main>\n<script type='application/json' id='pictures'>" +
-           picturesJson(c, folder, reference_png) + "</script><script>" + kReportScript + kSortScript +
-           "</script></body></html>\n";
+           picturesJson(c, folder, reference_png, kinds_png) + "</script><script>" + kReportScript +
+           kSortScript + "</script></body></html>\n";
 }
 
 std::string reportHeads() {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/compare/error_slope.h"
+#include "pipeline/compare/kinds_tables.h"
 #include "pipeline/error.h"
 
 namespace edgewise::compare {
@@ -64,6 +65,7 @@ Json rowJson(const Row& row) {
             {"bias_half_width", orNull(row.bias_half_width)},
             {"few_edges",
              row.few_edges ? Json{{"pixels", row.few_edges->pixels}, {"rmse", row.few_edges->rmse}} : Json()},
+            {"edge_kinds", kindsJson(row.kinds)},
             {"counts", row.counts},
             {"peak_mib", row.peak_mib},
             {"exr", fileJson(row.exr)},
@@ -127,6 +129,7 @@ std::string latexFields(const Row& row) {
 std::string comparisonJson(const Comparison& c) {
     Json json{{"scene", c.scene},     {"reference", c.reference},          {"command", c.command},
               {"version", c.version}, {"machine", machineJson(c.machine)}, {"rows", Json::array()}};
+    json["reference_error"] = referenceErrorJson(c.reference_error);
     for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
     json["slopes"] = Json::array();
     for (const ErrorSlope& s : errorSlopes(c.rows))
@@ -141,7 +144,8 @@ std::string comparisonJson(const Comparison& c) {
 
 std::string csvColumns() {
     return "method,filter,radius,sigma,width,height,device,status,seconds,seconds_min,seconds_max,runs,"
-           "setup_seconds,rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib";
+           "setup_seconds,rmse,max,bias,psnr,edge_rmse,edge_psnr,ssim,flip,peak_mib," +
+           kindsCsvColumns();
 }
 
 std::string csvFields(const Row& row) {
@@ -158,7 +162,7 @@ std::string csvFields(const Row& row) {
                            number(row.error->edge_psnr), row.error->ssim, row.error->flip);
     else
         out += ",,,,,,,,";
-    return out + fmt::format("{}", row.peak_mib);
+    return out + fmt::format("{},", row.peak_mib) + kindsCsvFields(row.kinds);
 }
 
 std::string comparisonCsv(const Comparison& c) {
@@ -210,6 +214,8 @@ Row rowFromText(const std::string& text) {
         row.bias_half_width = optional(json.at("bias_half_width"));
         if (const Json& few = json.at("few_edges"); !few.is_null())
             row.few_edges = {few.at("pixels"), few.at("rmse")};
+        if (const Json kinds = json.value("edge_kinds", Json()); !kinds.is_null())
+            row.kinds = judge::kindErrorsFrom(kinds);
         for (const Json& entry : json.at("plan"))
             row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
         row.notes = json.at("notes").get<std::vector<std::string>>();

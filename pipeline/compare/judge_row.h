@@ -6,8 +6,8 @@
 
 namespace edgewise::compare {
 
-/// Fills error, bias_half_width and, with a reference that knows its edges, few_edges. Throws InputError as
-/// judge::compareImages() does.
+/// Fills error, bias_half_width and, with a reference that knows its edges, few_edges or kinds. Throws
+/// InputError as judge::compareImages() does.
 void judgeRow(Row& row, const ImageBuffer& picture, const ReferencePicture& reference);
 
 }  // namespace edgewise::compare

@@ -160,18 +160,87 @@ void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions&
     for (const std::size_t i : open) turns[i].conclude(), changed(i);
 }
 
-ReferencePicture referenceOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
-                             Progress& progress) {
-    WorkerProcess worker(contender.arguments);
-    worker.ask({{"do", "open"}}, std::chrono::hours(24), progress);
-    takeFacts(worker.ask({{"do", "run"}}, std::chrono::hours(24 * 365), progress), row);
-    const ScratchFile file(scratch, 0);
-    worker.ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24), progress);
-    ReferencePicture reference{readRaw(file.path()), {}};
-    if (parseMethod(contender.method).name != "nsaa") return reference;
-    const Json reply = worker.ask({{"do", "edges"}}, std::chrono::hours(24), progress);
+namespace {
+
+/// A K of 16 is judged by 24: no sample of the one is at a place of the other.
+constexpr double kFiner = 1.5;
+/// A quarter of the rows, in strips.
+constexpr int kStrips = 4, kShare = 4;
+
+/// A worker that has made a reference.
+class ReferenceWorker {
+  public:
+    ReferenceWorker(const Contender& contender, const std::filesystem::path& scratch, Progress& progress)
+        : scratch_(scratch), progress_(progress), worker_(contender.arguments) {
+        ask({{"do", "open"}});
+    }
+    Json ask(const Json& request) { return worker_.ask(request, std::chrono::hours(24 * 365), progress_); }
+    /// Of the last run or check.
+    ImageBuffer picture() {
+        const ScratchFile file(scratch_, 0);
+        ask({{"do", "save"}, {"path", file.path().string()}});
+        return readRaw(file.path());
+    }
+
+  private:
+    const std::filesystem::path& scratch_;
+    Progress& progress_;
+    WorkerProcess worker_;
+};
+
+template <class Class>
+std::vector<Class> classesOf(const Json& reply) {
+    std::vector<Class> classes;
     for (const char digit : reply.at("classes").get<std::string>())
-        reference.edges.push_back(static_cast<EdgeClass>(digit - '0'));
+        classes.push_back(static_cast<Class>(digit - '0'));
+    return classes;
+}
+
+/// Of ssaa:K; none of other methods.
+std::optional<std::string> finerMethod(const std::string& typed) {
+    const MethodSpec method = parseMethod(typed);
+    if (method.name != "ssaa" || !method.number || !method.composed.empty()) return std::nullopt;
+    std::string finer = fmt::format("ssaa:{}", std::lround(std::ceil(kFiner * *method.number)));
+    for (const auto& [name, value] : method.parameters) finer += fmt::format(",{}={}", name, value);
+    return finer;
+}
+
+std::vector<PixelBox> strips(const PixelBox& whole) {
+    const int count = std::min(kStrips, whole.height());
+    std::vector<PixelBox> strips;
+    for (int i = 0; i < count; ++i) {
+        const int begin = whole.y0 + i * whole.height() / count,
+                  room = whole.y0 + (i + 1) * whole.height() / count - begin,
+                  height = std::max(1, room / kShare), y0 = begin + (room - height) / 2;
+        strips.push_back({whole.x0, y0, whole.x1, y0 + height});
+    }
+    return strips;
+}
+
+std::optional<ReferenceError> ownError(const Contender& contender, const ReferencePicture& reference,
+                                       ReferenceWorker& worker) {
+    const std::optional<std::string> finer = finerMethod(contender.method);
+    if (!finer) return std::nullopt;
+    ReferenceError error{*finer, {}};
+    for (const PixelBox& strip : strips(reference.picture.box)) {
+        worker.ask({{"do", "check"}, {"method", *finer}, {"rows", {strip.y0, strip.y1}}});
+        error.kinds += judge::errorsByKind(worker.picture(), reference.picture, reference.kinds);
+    }
+    return error;
+}
+
+}  // namespace
+
+ReferencePicture referenceOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
+                             Progress& progress, const ReferenceWishes& wishes) {
+    ReferenceWorker worker(contender, scratch, progress);
+    takeFacts(worker.ask({{"do", "run"}}), row);
+    ReferencePicture reference{worker.picture(), {}, {}, {}};
+    if (parseMethod(contender.method).name == "nsaa")
+        reference.edges = classesOf<EdgeClass>(worker.ask({{"do", "edges"}}));
+    if (wishes.kinds) reference.kinds = classesOf<judge::EdgeKind>(worker.ask({{"do", "kinds"}}));
+    if (wishes.own_error && !reference.kinds.empty())
+        reference.error = ownError(contender, reference, worker);
     return reference;
 }
 

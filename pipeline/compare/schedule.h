@@ -37,11 +37,19 @@ void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions&
 
 struct ReferencePicture {
     ImageBuffer picture;
-    std::vector<EdgeClass> edges;  ///< by pixel; empty but for nsaa
+    std::vector<EdgeClass> edges;        ///< by pixel; empty but for nsaa
+    std::vector<judge::EdgeKind> kinds;  ///< by pixel; empty but for SDF scenes, where asked for
+    std::optional<ReferenceError> error;
+};
+
+/// What is asked of a reference beside its picture.
+struct ReferenceWishes {
+    bool kinds = false;      ///< of edges, of SDF scenes
+    bool own_error = false;  ///< with kinds, of ssaa:K
 };
 
 /// Not timed.
 ReferencePicture referenceOf(const Contender& contender, const std::filesystem::path& scratch, Row& row,
-                             Progress& progress);
+                             Progress& progress, const ReferenceWishes& wishes = {});
 
 }  // namespace edgewise::compare

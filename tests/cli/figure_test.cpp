@@ -83,12 +83,33 @@ TEST(FigureCommand, ConeTracingWritesItsFiles) {
         for (const auto& [kind, count] : scene.at("pixels").items()) pixels += count.get<std::uint64_t>();
         EXPECT_EQ(pixels, 96u * 54u);
         std::map<std::string, double> psnr;
-        for (const auto& run : scene.at("runs")) psnr[run.at("method")] = run.at("psnr").at("contour");
+        for (const auto& row : scene.at("rows"))
+            psnr[row.at("method")] = row.at("edge_kinds").at("contour").at("psnr");
         EXPECT_LT(psnr.at("none"), psnr.at("ctss"));
         EXPECT_LT(psnr.at("none"), psnr.at("ssaa:2"));
         EXPECT_LT(psnr.at("ctss:weights=uniform"), psnr.at("ctss"));
-        EXPECT_LT(psnr.at("ssaa:3"), scene.at("reference_psnr").at("contour"));
+        EXPECT_LT(psnr.at("ssaa:3"), scene.at("reference_error").at("kinds").at("contour").at("psnr"));
     }
+    for (const auto& claim : json.at("claims")) {
+        if (!claim.at("margin").is_null()) {
+            EXPECT_EQ(claim.at("met"), claim.at("margin").get<double>() >= 0.0) << claim;
+        }
+    }
+    for (const char* name : {"means-edges.pdf", "means-contour.svg", "over-ssaa_2.svg", "wires-contour.svg"})
+        EXPECT_FALSE(readFile(own / name).empty()) << name;
+}
+
+TEST(FigureCommand, ConeBeyondShowsEachKind) {
+    const TemporaryFolder folder;
+    const ProgramRun done = runProgram({"figure", "cone-beyond", "--quick", "-o", "out"}, folder.path());
+    EXPECT_EQ(done.status, 0) << done.err;
+    const auto own = folder.path() / "out" / "cone-beyond";
+    const std::string page = readFile(own / "report.html");
+    for (const char* words : {"error of ctss-x, ", "ctss-x over ctss", "texture", "shadow"})
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+    EXPECT_FALSE(readFile(own / "primitives.pdf").empty());
+    // a line a scene, method and kind with all edges, and a header
+    EXPECT_EQ(lines(readFile(own / "results.csv")).size(), 1u + 2 * 4 * 6);
 }
 
 /// Fields of a CSV's rows, none of which has a comma in it.

@@ -210,6 +210,44 @@ TEST(SdfCommand, ComparesAgainstSsaa16) {
     EXPECT_TRUE(fs::exists(folder / "out/report.html"));
 }
 
+/// By kinds of edges, in every file; rows that are kept know theirs.
+TEST(SdfCommand, ComparesByKindsOfEdges) {
+    const TemporaryFolder folder;
+    const Arguments arguments{"compare",  "ball.sdf.json", "-o",   "out",         "--size",
+                              "24x16",    "--runs",        "1",    "--reference", "ssaa:4",
+                              "--resume", "--method",      "none", "--method",    "ssaa:2"};
+    json first;
+    for (int run = 0; run < 2; ++run) {
+        const ProgramRun done = inFolder(folder, arguments);
+        ASSERT_EQ(done.status, 0) << done.err;
+        EXPECT_NE(done.out.find("ssaa:4 itself, by ssaa:6"), std::string::npos) << done.out;
+        const json results = json::parse(readFile(folder / "out/results.json"));
+        if (run == 0) first = results;
+        EXPECT_EQ(results.at("reference_error").at("judge"), "ssaa:6");
+        for (std::size_t i = 0; i < 2; ++i) {
+            const json& kinds = results.at("rows").at(i).at("edge_kinds");
+            std::uint64_t pixels = 0;
+            for (const auto& [name, kind] : kinds.items())
+                if (name != "edges") pixels += kind.at("pixels").get<std::uint64_t>();
+            EXPECT_EQ(pixels, 24u * 16u);
+            EXPECT_GT(kinds.at("contour").at("pixels"), 0);
+            EXPECT_NEAR(kinds.at("contour").at("rmse").get<double>(),
+                        first.at("rows").at(i).at("edge_kinds").at("contour").at("rmse").get<double>(),
+                        1e-15);
+        }
+        EXPECT_LT(results.at("reference_error").at("kinds").at("edges").at("rmse"),
+                  results.at("rows").at(1).at("edge_kinds").at("edges").at("rmse"));
+    }
+    const auto csv = lines(readFile(folder / "out/results.csv"));
+    EXPECT_NE(csv.front().find("contour_pixels,contour_rmse,contour_psnr"), std::string::npos);
+    for (const std::string& line : csv)
+        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(csv.front(), ','));
+    const std::string page = readFile(folder / "out/report.html");
+    EXPECT_NE(page.find("By kinds of edges"), std::string::npos);
+    EXPECT_NE(page.find("kinds of edges\",\"picture\":\"data:image/png"), std::string::npos);
+    EXPECT_EQ(readPicture(folder / "out/edge-kinds.png").spec.width, 24);
+}
+
 TEST(SdfCommand, StudiesToo) {
     const TemporaryFolder folder;
     fs::copy_file(fs::path(EDGEWISE_TEST_DATA) / "degenerate/piercing.gltf", folder / "triangles.gltf");

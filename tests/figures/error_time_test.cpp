@@ -16,7 +16,7 @@ compare::Row rowOfMethod(const std::string& method, double seconds, double rmse)
 
 ErrorTime someFigure() {
     ErrorTime found;
-    ErrorTimeScene a{SceneKind::kTriangles, {"a", "nsaa", "", "", {}, {}}}, b = a, field = a;
+    ErrorTimeScene a{SceneKind::kTriangles, {"a", "nsaa", "", "", {}, {}, {}}}, b = a, field = a;
     a.comparison.rows = {rowOfMethod("none", 1.0, 0.4), rowOfMethod("ssaa:2", 4.0, 0.2),
                          rowOfMethod("ssaa:4", 16.0, 0.1), rowOfMethod("nsaa", 8.0, 0.0)};
     b.comparison.scene = "b";
