@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "sdf/dual_cells.h"
+#include "sdf/dual_debris.h"
 #include "sdf/evaluate.h"
 #include "sdf/mesh_attributes.h"
 #include "sdf/mesh_check.h"
@@ -51,6 +52,7 @@ class DualContouring {
           lattice_(request.lattice),
           counts_(counts),
           complex_(dualComplex(request, std::move(bricks))) {
+        counts_.debris = leaveOutDebris(request, complex_);
         counts_.nodes = complex_.bricks.nodes, counts_.pruned = complex_.bricks.pruned;
         counts_.bricks = complex_.bricks.bricks.size(), counts_.cells = complex_.cells;
     }
