@@ -540,7 +540,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         thin = {kThinPart * most_off, kThinPart * most_off};
     }
     BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
-    const int rounds = request.most_off ? kMostLevels : kRounds;
+    const int rounds = getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : request.most_off ? kMostLevels : kRounds;
     const std::size_t most_bricks =
         request.most_off ? request.most_bricks : std::min(request.most_bricks, 3 * bricks.bricks.size() / 2);
     SurfaceMesh mesh;
@@ -561,7 +561,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
     const TapeAt tape(request.tape, request.lattice, bricks);
     findMaterials(tape, mesh);
     counts.collapsed = leaveOutFlat(mesh, step);
-    counts.collapsed += thinOut(mesh, tape, step, thin);
+    if (!getenv("NOTHIN")) counts.collapsed += thinOut(mesh, tape, step, thin);
     findMaterials(tape, mesh);
     if (request.attributes) findNormals(tape, mesh);
     return mesh;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <optional>
 
 #include "sdf/evaluate.h"
 
@@ -37,8 +36,7 @@ class Surface {
     bool isDebris() const {
         const bool solid = volume() > 0.0;
         const DualPolygon& polygon = complex_.polygons[polygons_.front()];
-        const std::optional<glm::ivec3> corner = deepCorner(endOf(polygon, solid), solid);
-        return corner && !isAround(*corner);
+        return leadsOut(endOf(polygon, solid), solid);
     }
 
   private:
@@ -59,22 +57,26 @@ class Surface {
         return request_.lattice.corner(corner);
     }
 
-    /// Where the value has gone far enough from 0 to know of a corner: the way stays on its side of the
-    /// surface. None: it goes no further from 0.
-    std::optional<glm::ivec3> deepCorner(glm::dvec3 p, bool solid) const {
+    /// A way along which the value goes ever further from 0, and which so stays on its side of the surface,
+    /// comes so near to a corner that this is on that side too, and the corner is not within.
+    bool leadsOut(glm::dvec3 p, bool solid) const {
         const Lattice& lattice = request_.lattice;
         double before = 0.0;
+        glm::ivec3 last(-1);
         for (int step = 0; step < kMostSteps; ++step) {
             const ValueAndGradient at = gradientAt(request_.tape, p);
             const double depth = solid ? -at.value : at.value, slope = glm::length(at.gradient),
                          reach = depth / request_.tape.lipschitz;
-            if (!(depth > before) || !(slope > 0.0)) return std::nullopt;
-            const glm::ivec3 corner(glm::round((p - lattice.low_world) / lattice.step));
-            if (glm::distance(lattice.corner(corner * kUnits), p) < reach) return corner * kUnits;
+            if (!(depth > before) || !(slope > 0.0)) return false;
+            const glm::ivec3 corner = kUnits * glm::ivec3(glm::round((p - lattice.low_world) / lattice.step));
+            if (corner != last && glm::distance(lattice.corner(corner), p) < reach) {
+                if (!isAround(corner)) return true;
+                last = corner;
+            }
             before = depth;
             p += kStep * reach * wayFrom(p, at.gradient / slope, kStep * reach, solid);
         }
-        return std::nullopt;
+        return false;
     }
     /// Along the gradient; between two sides of a wedge along its middle.
     glm::dvec3 wayFrom(const glm::dvec3& p, const glm::dvec3& normal, double step, bool solid) const {
