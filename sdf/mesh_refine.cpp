@@ -9,6 +9,7 @@
 #include "sdf/evaluate.h"
 #include "sdf/mesh_edit.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
 namespace {
@@ -18,6 +19,8 @@ constexpr int kRounds = 10;
 constexpr double kGain = 0.8;
 /// Of an edge's length: from its middle to where it is divided.
 constexpr double kFarthest = 1.0;
+/// Of a cell's side: a sharp edge or corner may be so far from where it is looked for.
+constexpr double kReach = 4.0;
 /// Of a cell's side: triangles that turned edges make are no narrower.
 constexpr double kLeastHeight = 1e-3;
 
@@ -118,10 +121,12 @@ class Refiner {
         const Candidate now{c.a, c.b, off};
         if (shouldTurn(now, d) && edit_.turn(d)) return touch(d);
         if (isEven(d)) {
-            if (!(off > limits_.smooth && divide(now, d, true)) && !shiftOff(c.a)) shiftOff(c.b);
-        } else if (!divide(now, d, false) && !shift(c.a) && !shift(c.b) && !draw(c.a)) {
-            draw(c.b);
+            if ((off > limits_.smooth && divide(now, d, true)) || shiftOff(c.a) || shiftOff(c.b)) return;
+        } else if (getenv("ORDER") ? shift(c.a) || shift(c.b) || divide(now, d, false)
+                                   : divide(now, d, false) || shift(c.a) || shift(c.b)) {
+            return;
         }
+        if (!draw(c.a)) draw(c.b);
     }
 
     /// No sharp edge is near: along the edge, and between the tips, the normal turns evenly.
@@ -168,9 +173,9 @@ class Refiner {
         }
         return most;
     }
-    bool tooOften(std::uint32_t v) {
-        tried_.resize(edit_.mesh().position_world.size(), 0);
-        return tried_[v]++ >= kMostShifts;
+    bool tooOften(std::uint32_t v, std::vector<int>& tried) const {
+        tried.resize(edit_.mesh().position_world.size(), 0);
+        return tried[v]++ >= kMostShifts;
     }
     void touchAround(std::uint32_t v) {
         edit_.neighboursOf(v, neighbours_);
@@ -181,11 +186,11 @@ class Refiner {
     /// To the sharp edge or corner that its neighbourhood has, or to the surface, where that is nearer all
     /// around.
     bool shift(std::uint32_t v) {
-        if (tooOften(v)) return false;
+        if (tooOften(v, shifts_)) return false;
         const glm::dvec3 from = at(v);
-        const TapeView tape = tape_(from);
+        const TapeView tape = tape_.whole();
         const double most = kGain * offWith(v, from);
-        double reach = 0.0;
+        double reach = kReach * step_;
         std::vector<TangentPlane> planes;
         for (const std::uint32_t t : edit_.around(v)) {
             const glm::dvec3 side = at(othersOf(triangle(t), v)[0]) - from;
@@ -198,7 +203,7 @@ class Refiner {
             if (!(glm::distance(p, from) <= reach)) return;
             if (const double off = offWith(v, p); off < most) ways.push_back({off, p});
         };
-        if (!planes.empty()) attempt(featurePoint(tape, planes, from, step_).place_world);
+        if (!planes.empty()) attempt(featurePoint(tape, planes, from, 0.5 * kReach * step_).place_world);
         attempt(onSurface(tape, from));
         if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
         for (const auto& [off, p] : ways)
@@ -206,14 +211,17 @@ class Refiner {
         return false;
     }
 
-    /// A vertex that is not where it belongs into the neighbour that leaves what is nearest to the surface.
+    /// A vertex into the neighbour that leaves what is nearest to the surface, and, if it was on it, does not
+    /// leave its place.
     bool draw(std::uint32_t v) {
-        if (offAt(at(v)) <= limits_.sharp || tooOften(v)) return false;
+        if (tooOften(v, draws_)) return false;
+        const bool on_surface = offAt(at(v)) <= limits_.sharp;
         const double most = kGain * offWith(v, at(v));
         edit_.neighboursOf(v, neighbours_);
         std::vector<std::pair<double, std::uint32_t>> ways;
         for (const std::uint32_t u : neighbours_)
-            if (const double off = offDrawn(v, u); off < most) ways.push_back({off, u});
+            if (const double off = offDrawn(v, u); off < most && !(on_surface && leavesPlace(v, u)))
+                ways.push_back({off, u});
         std::sort(ways.begin(), ways.end());
         for (std::size_t n = 0; n < std::min(ways.size(), kMostWays); ++n)
             if (edit_.collapse(v, ways[n].second)) return touchAround(ways[n].second), true;
@@ -227,6 +235,14 @@ class Refiner {
             most = std::max({most, offBetween(at(u), at(a)), offBetween(at(u), at(b)), offOf(u, a, b)});
         }
         return most;
+    }
+
+    bool leavesPlace(std::uint32_t v, std::uint32_t u) const {
+        const double most = limits_.sharp * limits_.sharp;
+        return std::none_of(edit_.around(v).begin(), edit_.around(v).end(), [&](std::uint32_t t) {
+            const auto [a, b] = othersOf(triangle(t), v);
+            return a != u && b != u && squaredDistance(at(v), at(u), at(a), at(b)) <= most;
+        });
     }
 
     double offOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -263,17 +279,19 @@ class Refiner {
                                                          const std::array<std::uint32_t, 2>& tips,
                                                          bool even) const {
         const glm::dvec3 &a = at(c.a), &b = at(c.b), middle = 0.5 * (a + b);
-        const TapeView tape = tape_(middle);
         std::vector<std::pair<double, glm::dvec3>> found;
+        double reach = kFarthest * glm::distance(a, b);
         const auto attempt = [&](const glm::dvec3& p) {
-            if (glm::distance(p, middle) > kFarthest * glm::distance(a, b)) return;
-            const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
+            if (glm::distance(p, middle) > reach) return;
+            const double off = std::max({offAt(p), offBetween(p, a), offBetween(p, b)});
             if (off < kGain * c.off) found.push_back({off, p});
         };
         if (even || !sharp_.at(middle)) {
-            attempt(onSurface(tape, middle));
+            attempt(onSurface(tape_(middle), middle));
             if (!found.empty() || even) return found;
         }
+        const TapeView tape = tape_.whole();
+        reach = std::max(reach, kReach * step_);
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
         // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
@@ -283,7 +301,7 @@ class Refiner {
             for (int end = 0; end < count; ++end)
                 for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
             if (planes.empty()) continue;
-            const FeaturePoint point = featurePoint(tape, planes, middle, step_);
+            const FeaturePoint point = featurePoint(tape, planes, middle, 0.5 * kReach * step_);
             if (point.rank < 2) continue;
             sharp = true;
             attempt(point.place_world);
@@ -304,7 +322,7 @@ class Refiner {
     const SharpCells& sharp_;
     const MeshLimits limits_;
     std::size_t added_ = 0;
-    std::vector<int> tried_;  ///< how often vertices were asked to go elsewhere
+    std::vector<int> shifts_, draws_;  ///< how often vertices were asked to go elsewhere
     std::vector<std::uint32_t> touched_, neighbours_;
 };
 
