@@ -207,7 +207,8 @@ class Refiner {
         attempt(onSurface(tape, from));
         if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
         for (const auto& [off, p] : ways)
-            if (edit_.move(v, p)) return touchAround(v), true;
+            for (const glm::dvec3& to : {p, 0.5 * (from + p)})
+                if (offWith(v, to) < most && edit_.move(v, to)) return touchAround(v), true;
         return false;
     }
 
@@ -220,7 +221,7 @@ class Refiner {
         edit_.neighboursOf(v, neighbours_);
         std::vector<std::pair<double, std::uint32_t>> ways;
         for (const std::uint32_t u : neighbours_)
-            if (const double off = offDrawn(v, u); off < most && !(on_surface && leavesPlace(v, u)))
+            if (const double off = offDrawn(v, u); off < most && !(on_surface && leavesPlace(v, u, most)))
                 ways.push_back({off, u});
         std::sort(ways.begin(), ways.end());
         for (std::size_t n = 0; n < std::min(ways.size(), kMostWays); ++n)
@@ -237,11 +238,11 @@ class Refiner {
         return most;
     }
 
-    bool leavesPlace(std::uint32_t v, std::uint32_t u) const {
-        const double most = limits_.sharp * limits_.sharp;
+    /// By more than so far.
+    bool leavesPlace(std::uint32_t v, std::uint32_t u, double most) const {
         return std::none_of(edit_.around(v).begin(), edit_.around(v).end(), [&](std::uint32_t t) {
             const auto [a, b] = othersOf(triangle(t), v);
-            return a != u && b != u && squaredDistance(at(v), at(u), at(a), at(b)) <= most;
+            return a != u && b != u && squaredDistance(at(v), at(u), at(a), at(b)) <= most * most;
         });
     }
 
@@ -265,8 +266,11 @@ class Refiner {
 
     /// `even`: no sharp edge is near.
     bool divide(const Candidate& c, const Diamond& d, bool even) {
+        const glm::dvec3 middle = 0.5 * (at(c.a) + at(c.b));
         for (const auto& [off, place] : placesFor(c, d.tips, even)) {
-            if (!edit_.divide(d, place)) continue;
+            const glm::dvec3 half = 0.5 * (middle + place);
+            if (!edit_.divide(d, place) && !(offDivided(c, half) < kGain * c.off && edit_.divide(d, half)))
+                continue;
             ++added_;
             touch(d);
             return true;
@@ -274,6 +278,9 @@ class Refiner {
         return false;
     }
 
+    double offDivided(const Candidate& c, const glm::dvec3& p) const {
+        return std::max({offAt(p), offBetween(p, at(c.a)), offBetween(p, at(c.b))});
+    }
     /// The nearest first.
     std::vector<std::pair<double, glm::dvec3>> placesFor(const Candidate& c,
                                                          const std::array<std::uint32_t, 2>& tips,
@@ -283,7 +290,7 @@ class Refiner {
         double reach = kFarthest * glm::distance(a, b);
         const auto attempt = [&](const glm::dvec3& p) {
             if (glm::distance(p, middle) > reach) return;
-            const double off = std::max({offAt(p), offBetween(p, a), offBetween(p, b)});
+            const double off = offDivided(c, p);
             if (off < kGain * c.off) found.push_back({off, p});
         };
         if (even || !sharp_.at(middle)) {
