@@ -38,9 +38,6 @@ constexpr int kRounds = 2;
 constexpr double kMostOffBricks = 0.2;
 /// The same three of a distance that is asked for.
 constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6;
-constexpr int kSettlings = 3;
-/// Of a cell's side: what is off the surface by no more is left as it is.
-constexpr double kSettled = 0.01;
 
 /// A vertex is at its target, or, to keep the mesh from meeting itself, moved towards its loop's middle.
 enum Care : std::uint8_t { kFree, kInCell, kHalfway, kMiddle, kDivided };
@@ -59,7 +56,6 @@ class DualContouring {
 
     SurfaceMesh run(const MeshLimits& middle) {
         placeVertices();
-        if (!getenv("NOSETTLE")) settle();
         divided_.assign(complex_.polygons.size(), false);
         turned_.assign(complex_.polygons.size(), false);
         middles_.assign(complex_.polygons.size(), {kNoVertex, kNoVertex, kNoVertex, kNoVertex});
@@ -118,14 +114,14 @@ class DualContouring {
             DualVertex& v = complex_.vertices[n];
             if (!inOwnCell(v, v.target_world)) {
                 glm::ivec3 at;
-                bool may = freeBeside(v, at) && !getenv("INCELL");
+                bool may = freeBeside(v, at);
                 auto& others = taken[{at.x, at.y, at.z}];
                 for (const glm::dvec3& other : others)
                     may &= glm::distance(other, v.target_world) > kApart * sideOf(v.cell);
                 if (may)
                     others.push_back(v.target_world);
                 else
-                    v.target_world = heldOnSurface(v), v.rank = 1;
+                    v.target_world = heldOnSurface(v);
             }
             mesh_.position_world[n] = v.target_world;
         }
@@ -147,108 +143,6 @@ class DualContouring {
     glm::dvec3 heldOnSurface(const DualVertex& v) const {
         const glm::dvec3 held = heldInCell(v, v.target_world), moved = onSurface(tapeOf(v.brick), held);
         return inOwnCell(v, moved) ? moved : heldInCell(v, moved);
-    }
-
-    void findPolygons() {
-        first_.assign(complex_.vertices.size() + 1, 0);
-        for (const DualPolygon& polygon : complex_.polygons)
-            for (int k = 0; k < 4; ++k)
-                if (polygon.isSide(k)) ++first_[polygon.vertex[k] + 1];
-        for (std::size_t v = 0; v < complex_.vertices.size(); ++v) first_[v + 1] += first_[v];
-        around_.resize(first_.back());
-        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-        for (std::uint32_t p = 0; p < complex_.polygons.size(); ++p)
-            for (int k = 0; k < 4; ++k)
-                if (complex_.polygons[p].isSide(k)) around_[next[complex_.polygons[p].vertex[k]]++] = p;
-    }
-    std::span<const std::uint32_t> polygonsOf(std::uint32_t v) const {
-        return std::span(around_).subspan(first_[v], first_[v + 1] - first_[v]);
-    }
-
-    /// How far the polygons around a vertex would be off the surface with it there, at the middles of their
-    /// sides and of the better diagonal.
-    double offWith(std::uint32_t v, const glm::dvec3& place) const {
-        const TapeView& tape = tapeOf(complex_.vertices[v].brick);
-        const auto off = [&](const glm::dvec3& a, const glm::dvec3& b) {
-            return std::abs(valueAt(tape, 0.5 * (a + b)));
-        };
-        double most = std::abs(valueAt(tape, place));
-        for (const std::uint32_t p : polygonsOf(v)) {
-            const DualPolygon& polygon = complex_.polygons[p];
-            const auto at = [&](std::size_t k) { return mesh_.position_world[polygon.vertex[k % 4]]; };
-            if (polygon.mixed) {
-                for (const std::uint32_t w : polygon.vertex)
-                    if (w != v) most = std::max(most, off(place, mesh_.position_world[w]));
-                continue;
-            }
-            const std::size_t k =
-                std::find(polygon.vertex.begin(), polygon.vertex.end(), v) - polygon.vertex.begin();
-            most = std::max(
-                {most, off(place, at(k + 1)), std::min(off(place, at(k + 2)), off(at(k + 1), at(k + 3)))});
-        }
-        return most;
-    }
-
-    /// A sharp edge may pass cells that see one of its sides alone: their vertices take the other from the
-    /// cells around.
-    void settle() {
-        findPolygons();
-        std::vector<bool> asked(complex_.vertices.size(), true);
-        for (int pass = 0; pass < kSettlings; ++pass) {
-            std::vector<bool> next(asked.size(), false);
-            bool any = false;
-            for (std::uint32_t v = 0; v < complex_.vertices.size(); ++v)
-                if (asked[v] && bySharp(v) && settle(v)) askAround(v, next), any = true;
-            if (!any) break;
-            asked = std::move(next);
-        }
-    }
-    void askAround(std::uint32_t v, std::vector<bool>& asked) const {
-        for (const std::uint32_t p : polygonsOf(v))
-            for (const std::uint32_t w : complex_.polygons[p].vertex) asked[w] = true;
-    }
-    bool bySharp(std::uint32_t v) const {
-        if (complex_.vertices[v].rank > 1) return true;
-        for (const std::uint32_t p : polygonsOf(v))
-            for (const std::uint32_t w : complex_.polygons[p].vertex)
-                if (complex_.vertices[w].rank > 1) return true;
-        return false;
-    }
-    bool settle(std::uint32_t v) {
-        DualVertex& vertex = complex_.vertices[v];
-        const glm::dvec3 now = mesh_.position_world[v];
-        const double side = sideOf(vertex.cell);
-        double best = offWith(v, now);
-        if (best <= kSettled * side) return false;
-        std::vector<std::uint32_t> seen;
-        std::vector<TangentPlane> planes;
-        glm::dvec3 sharp(0.0);
-        int sharp_count = 0;
-        for (const std::uint32_t p : polygonsOf(v))
-            for (const std::uint32_t w : complex_.polygons[p].vertex) {
-                if (w != v && complex_.vertices[w].rank > 1) sharp += mesh_.position_world[w], ++sharp_count;
-                for (const std::uint32_t q : polygonsOf(w)) seen.push_back(q);
-            }
-        std::sort(seen.begin(), seen.end());
-        seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-        for (const std::uint32_t q : seen)
-            if (planes.size() < kMostPlanes) planes.push_back(complex_.polygons[q].crossing);
-        bool moved = false;
-        const auto attempt = [&](const glm::dvec3& about) {
-            const FeaturePoint point = featurePoint(tapeOf(vertex.brick), planes, about, side);
-            const glm::dvec3 from_cell =
-                glm::abs(point.place_world - (lattice_.corner(vertex.cell.low) + 0.5 * side));
-            if (std::max({from_cell.x, from_cell.y, from_cell.z}) > 1.4 * side) return;
-            const double off = offWith(v, point.place_world);
-            if (off >= 0.7 * best) return;
-            best = off, moved = true;
-            mesh_.position_world[v] = vertex.target_world = point.place_world;
-            vertex.rank = static_cast<std::uint8_t>(point.rank);
-        };
-        attempt(now);
-        if (sharp_count > 0) attempt(sharp / static_cast<double>(sharp_count));
-        attempt(vertex.middle_world);
-        return moved;
     }
 
     /// Where the surface passes a face twice between the same two vertices, the two sides get vertices of
@@ -511,7 +405,6 @@ class DualContouring {
     MeshCounts& counts_;
     DualComplex complex_;
     SurfaceMesh mesh_;
-    std::vector<std::uint32_t> first_, around_;  ///< the polygons of each vertex
     std::vector<std::uint8_t> care_, diagonal_;
     std::vector<bool> divided_, turned_, doubtful_;
     std::vector<std::array<std::uint32_t, 4>> middles_;
@@ -540,7 +433,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
         thin = {kThinPart * most_off, kThinPart * most_off};
     }
     BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
-    const int rounds = getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : request.most_off ? kMostLevels : kRounds;
+    const int rounds = request.most_off ? kMostLevels : kRounds;
     const std::size_t most_bricks =
         request.most_off ? request.most_bricks : std::min(request.most_bricks, 3 * bricks.bricks.size() / 2);
     SurfaceMesh mesh;
@@ -561,7 +454,7 @@ SurfaceMesh dualContouring(const MeshRequest& request, MeshCounts& counts) {
     const TapeAt tape(request.tape, request.lattice, bricks);
     findMaterials(tape, mesh);
     counts.collapsed = leaveOutFlat(mesh, step);
-    if (!getenv("NOTHIN")) counts.collapsed += thinOut(mesh, tape, step, thin);
+    counts.collapsed += thinOut(mesh, tape, step, thin);
     findMaterials(tape, mesh);
     if (request.attributes) findNormals(tape, mesh);
     return mesh;

@@ -107,8 +107,8 @@ bool MeshEdit::move(std::uint32_t v, const glm::dvec3& to) {
     for (const std::uint32_t t : gone_) take(t);
     const glm::dvec3 from = at(v);
     mesh_.position_world[v] = to;
-    bool met = std::any_of(gone_.begin(), gone_.end(),
-                           [&](std::uint32_t t) { return meets(mesh_.triangles[t]); });
+    bool met =
+        std::any_of(gone_.begin(), gone_.end(), [&](std::uint32_t t) { return meets(mesh_.triangles[t]); });
     for (std::size_t n = 0; n < gone_.size() && !met; ++n)
         for (std::size_t m = 0; m < n && !met; ++m)
             met = trianglesMeet(mesh_.position_world, mesh_.triangles[gone_[n]], mesh_.triangles[gone_[m]]);
@@ -162,8 +162,7 @@ void MeshEdit::compact() {
     std::uint32_t count = 0;
     std::vector<std::uint32_t> number(around_.size(), kGone);
     for (std::uint32_t v = 0; v < around_.size(); ++v)
-        if (!around_[v].empty())
-            number[v] = count, mesh_.position_world[count++] = mesh_.position_world[v];
+        if (!around_[v].empty()) number[v] = count, mesh_.position_world[count++] = mesh_.position_world[v];
     mesh_.position_world.resize(count);
     for (Triangle& t : mesh_.triangles)
         for (std::uint32_t& v : t) v = number[v];

@@ -31,6 +31,8 @@ constexpr double kByEnd = 0.8, kEnd = 0.97;
 constexpr double kEven = 1.5, kSlight = 0.03;
 /// Of a cell's side: a vertex counts as on the surface.
 constexpr double kOff = 1e-6;
+/// Of the limit by sharp edges: vertices further off, which mending has left there, are asked to go back.
+constexpr double kMended = 0.25;
 /// The sine of half a wedge's angle: narrower ones count as of that.
 constexpr double kNarrowest = 0.02;
 
@@ -49,6 +51,8 @@ class Refiner {
         : edit_(mesh, step), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
 
     std::size_t run() {
+        for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v)
+            if (offAt(at(v)) > kMended * limits_.sharp) shift(v);
         std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
@@ -95,8 +99,7 @@ class Refiner {
         if (off > limits_.smooth) return true;
         if (off <= kNarrowest * limits_.sharp || !sharp_.at(0.5 * (at(a) + at(b)))) return false;
         Diamond d;
-        return off > limits_.sharp ||
-               (edit_.diamondOf(a, b, d) && off > limits_.sharp * halfAngleSine(d));
+        return off > limits_.sharp || (edit_.diamondOf(a, b, d) && off > limits_.sharp * halfAngleSine(d));
     }
     double halfAngleSine(const Diamond& d) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
@@ -122,8 +125,7 @@ class Refiner {
         if (shouldTurn(now, d) && edit_.turn(d)) return touch(d);
         if (isEven(d)) {
             if ((off > limits_.smooth && divide(now, d, true)) || shiftOff(c.a) || shiftOff(c.b)) return;
-        } else if (getenv("ORDER") ? shift(c.a) || shift(c.b) || divide(now, d, false)
-                                   : divide(now, d, false) || shift(c.a) || shift(c.b)) {
+        } else if (shift(c.a) || shift(c.b) || divide(now, d, false)) {
             return;
         }
         if (!draw(c.a)) draw(c.b);
