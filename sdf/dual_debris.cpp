@@ -1,18 +1,15 @@
 #include "sdf/dual_debris.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "sdf/evaluate.h"
+#include "sdf/inward_way.h"
 
 namespace edgewise::sdf {
 namespace {
 
 constexpr int kMostSteps = 400;
-/// Of what the value allows.
-constexpr double kStep = 0.5;
 
 /// By their vertices.
 std::vector<std::uint32_t> surfacesOf(const DualComplex& complex) {
@@ -57,36 +54,19 @@ class Surface {
         return request_.lattice.corner(corner);
     }
 
-    /// A way along which the value goes ever further from 0, and which so stays on its side of the surface,
-    /// comes so near to a corner that this is on that side too, and the corner is not within.
-    bool leadsOut(glm::dvec3 p, bool solid) const {
+    /// The way comes so near to a corner that this is on its side too, and the corner is not within.
+    bool leadsOut(const glm::dvec3& from, bool solid) const {
         const Lattice& lattice = request_.lattice;
-        double before = 0.0;
+        InwardWay way(request_.tape, request_.tape.lipschitz, from, solid);
         glm::ivec3 last(-1);
-        for (int step = 0; step < kMostSteps; ++step) {
-            const ValueAndGradient at = gradientAt(request_.tape, p);
-            const double depth = solid ? -at.value : at.value, slope = glm::length(at.gradient),
-                         reach = depth / request_.tape.lipschitz;
-            if (!(depth > before) || !(slope > 0.0)) return false;
-            const glm::ivec3 corner = kUnits * glm::ivec3(glm::round((p - lattice.low_world) / lattice.step));
-            if (corner != last && glm::distance(lattice.corner(corner), p) < reach) {
-                if (!isAround(corner)) return true;
-                last = corner;
-            }
-            before = depth;
-            p += kStep * reach * wayFrom(p, at.gradient / slope, kStep * reach, solid);
+        for (int n = 0; n < kMostSteps && way.isOn(); ++n, way.step()) {
+            const glm::ivec3 corner =
+                kUnits * glm::ivec3(glm::round((way.place() - lattice.low_world) / lattice.step));
+            if (corner == last || glm::distance(lattice.corner(corner), way.place()) >= way.reach()) continue;
+            if (!isAround(corner)) return true;
+            last = corner;
         }
         return false;
-    }
-    /// Along the gradient; between two sides of a wedge along its middle.
-    glm::dvec3 wayFrom(const glm::dvec3& p, const glm::dvec3& normal, double step, bool solid) const {
-        const double sign = solid ? -1.0 : 1.0;
-        const glm::dvec3 beyond = gradientAt(request_.tape, p + sign * step * normal).gradient;
-        const double slope = glm::length(beyond);
-        if (!(slope > 0.0)) return sign * normal;
-        const glm::dvec3 both = normal + beyond / slope;
-        const double length = glm::length(both);
-        return length > 1e-3 ? sign / length * both : sign * normal;
     }
 
     /// Along the lattice's line from a corner of undivided cells, the surface is crossed an odd number of
