@@ -9,7 +9,7 @@ namespace edgewise::sdf {
 namespace {
 
 /// Of a cell's side: a wedge gets thick within so far, which refinement then reaches.
-constexpr double kLongest = 3.0;
+constexpr double kLongest = 2.0;
 constexpr int kMostSteps = 200;
 
 }  // namespace

@@ -35,6 +35,8 @@ constexpr double kOff = 1e-6;
 constexpr double kMended = 0.25;
 /// The sine of half a wedge's angle: narrower ones count as of that.
 constexpr double kNarrowest = 0.02;
+/// Of a cell's side: edges that are longer were drawn so, to a sharp edge, and its limit is theirs.
+constexpr double kLong = 2.0;
 
 constexpr int kMostShifts = 4;
 constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
@@ -51,8 +53,7 @@ class Refiner {
         : edit_(mesh, step), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
 
     std::size_t run() {
-        for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v)
-            if (offAt(at(v)) > kMended * limits_.sharp) shift(v);
+        for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
         std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
@@ -60,6 +61,7 @@ class Refiner {
             for (const Candidate& c : candidatesOf(active, round == 0)) improve(c);
             std::sort(touched_.begin(), touched_.end());
             touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+            for (const std::uint32_t v : std::vector(touched_)) shiftBack(v);
             active.clear();
             for (const std::uint32_t v : touched_)
                 active.insert(active.end(), edit_.around(v).begin(), edit_.around(v).end());
@@ -124,7 +126,7 @@ class Refiner {
         const Candidate now{c.a, c.b, off};
         if (shouldTurn(now, d) && edit_.turn(d)) return touch(d);
         if (isEven(d)) {
-            if ((off > limits_.smooth && divide(now, d, true)) || shiftOff(c.a) || shiftOff(c.b)) return;
+            if (divide(now, d, true) || shiftOff(c.a) || shiftOff(c.b)) return;
         } else if (shift(c.a) || shift(c.b) || divide(now, d, false)) {
             return;
         }
@@ -163,6 +165,9 @@ class Refiner {
         for (std::size_t n = 0; n < N; ++n)
             if (!(turns[n] <= kEven * turned * ways[n] / way + kSlight)) return false;
         return true;
+    }
+    void shiftBack(std::uint32_t v) {
+        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limits_.sharp) shift(v);
     }
     bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * step_ && shift(v); }
 
