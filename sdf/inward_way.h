@@ -7,8 +7,8 @@
 
 namespace edgewise::sdf {
 
-/// Along which a tape's value goes ever further from 0, by steps of what the Lipschitz bound allows: it stays on
-/// its side of the surface. Between the two sides of a wedge it follows their middle.
+/// Along which a tape's value goes ever further from 0, by steps of what the Lipschitz bound allows: it stays
+/// on its side of the surface. Between the two sides of a wedge it follows their middle.
 class InwardWay {
   public:
     InwardWay(const TapeView& tape, double lipschitz, const glm::dvec3& from_world, bool solid)

@@ -126,8 +126,8 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
                     ++end[axis];
                     if ((value(corner) < 0.0) == (value(end) < 0.0)) continue;
                     if (turned_[indexOf(corner)] || turned_[indexOf(end)]) {
-                        const glm::dvec3 middle =
-                            0.5 * (lattice.corner(brick.unitsOf(corner)) + lattice.corner(brick.unitsOf(end)));
+                        const glm::dvec3 middle = 0.5 * (lattice.corner(brick.unitsOf(corner)) +
+                                                         lattice.corner(brick.unitsOf(end)));
                         addCrossing(brick, corner, axis, middle, true);
                         continue;
                     }

@@ -38,6 +38,11 @@ constexpr double kNarrowest = 0.02;
 /// Of a cell's side: edges that are longer were drawn so, to a sharp edge, and its limit is theirs.
 constexpr double kLong = 2.0;
 
+/// Cosine between triangles' normals by a sharp edge.
+constexpr double kFolded = 0.95;
+/// Of the way from its middle to a tip: where its sides are asked for; of the limit: they meet there.
+constexpr double kNear = 0.1, kByTip = 0.6, kOn = 1e-2;
+
 constexpr int kMostShifts = 4;
 constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
 
@@ -85,8 +90,7 @@ class Refiner {
                 std::uint32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
                 if (all && a > b) continue;  // the other triangle asks
                 if (a > b) std::swap(a, b);
-                if (const double off = offBetween(at(a), at(b)); isOff(a, b, off))
-                    found.push_back({a, b, off});
+                if (const double off = tooFarOff(a, b); off > 0.0) found.push_back({a, b, off});
             }
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
@@ -95,13 +99,43 @@ class Refiner {
         found.erase(std::unique(found.begin(), found.end(), same), found.end());
         return found;
     }
-    /// A sharp edge is further away than the surface is: where planes meet at an angle of 2 beta, what is d
-    /// from both on their middle is d / sin(beta) from their line.
-    bool isOff(std::uint32_t a, std::uint32_t b, double off) const {
-        if (off > limits_.smooth) return true;
-        if (off <= kNarrowest * limits_.sharp || !sharp_.at(0.5 * (at(a) + at(b)))) return false;
+    /// How far an edge is off, or 0 where that is within its limit. A sharp edge is further away than the
+    /// surface is: where planes meet at an angle of 2 beta, what is d from both on their middle is d /
+    /// sin(beta) from their line, and what is on one of them is not off at all.
+    double tooFarOff(std::uint32_t a, std::uint32_t b) const {
+        const glm::dvec3 middle = 0.5 * (at(a) + at(b));
+        const double off = offAt(middle);
         Diamond d;
-        return off > limits_.sharp || (edit_.diamondOf(a, b, d) && off > limits_.sharp * halfAngleSine(d));
+        if (off > limits_.smooth || !edit_.diamondOf(a, b, d)) return off > limits_.smooth ? off : 0.0;
+        if (isFolded(d)) {
+            const double far = std::max(off, sharpEdgeFrom(d));
+            return far > limits_.sharp ? far : 0.0;
+        }
+        if (off <= kNarrowest * limits_.sharp) return 0.0;
+        if (!sharp_.at(middle) && glm::distance(at(a), at(b)) <= kLong * step_) return 0.0;
+        return off > limits_.sharp || off > limits_.sharp * halfAngleSine(d) ? off : 0.0;
+    }
+    bool isFolded(const Diamond& d) const {
+        const glm::dvec3 first = normalOf(d.sides[0]), second = normalOf(d.sides[1]);
+        const double cosine = glm::dot(first, second);
+        return cosine < 0.0 ||
+               cosine * cosine < kFolded * kFolded * glm::dot(first, first) * glm::dot(second, second);
+    }
+    glm::dvec3 normalOf(std::uint32_t t) const {
+        const auto& [a, b, c] = triangle(t);
+        return glm::cross(at(b) - at(a), at(c) - at(a));
+    }
+    /// From its middle to the sharp edge of its two sides.
+    double sharpEdgeFrom(const Diamond& d) const {
+        const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
+        const auto offTowards = [&](std::uint32_t tip) { return offAt(middle + kNear * (at(tip) - middle)); };
+        if (std::max(offTowards(d.tips[0]), offTowards(d.tips[1])) < kOn * limits_.sharp) return 0.0;
+        std::vector<TangentPlane> planes;
+        for (const std::uint32_t v : {d.a, d.b, d.tips[0], d.tips[1]})
+            addPlane(tape_.whole(), middle + kByTip * (at(v) - middle), planes);
+        if (planes.empty()) return 0.0;
+        const FeaturePoint point = featurePoint(tape_.whole(), planes, middle, 0.5 * kReach * step_);
+        return point.rank < 2 ? 0.0 : glm::distance(point.place_world, middle);
     }
     double halfAngleSine(const Diamond& d) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
@@ -121,11 +155,10 @@ class Refiner {
     void improve(const Candidate& c) {
         Diamond d;
         if (!edit_.diamondOf(c.a, c.b, d)) return;
-        const double off = offBetween(at(c.a), at(c.b));  // others may have changed it
-        if (!isOff(c.a, c.b, off)) return;
-        const Candidate now{c.a, c.b, off};
-        if (shouldTurn(now, d) && edit_.turn(d)) return touch(d);
-        if (isEven(d)) {
+        const Candidate now{c.a, c.b, tooFarOff(c.a, c.b)};  // others may have changed it
+        if (now.off == 0.0) return;
+        if (shouldTurn(d) && edit_.turn(d)) return touch(d);
+        if (!isFolded(d) && isEven(d)) {
             if (divide(now, d, true) || shiftOff(c.a) || shiftOff(c.b)) return;
         } else if (shift(c.a) || shift(c.b) || divide(now, d, false)) {
             return;
@@ -262,11 +295,11 @@ class Refiner {
         return glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / longest;
     }
     /// The other diagonal is nearer to the surface, and makes no slivers.
-    bool shouldTurn(const Candidate& c, const Diamond& d) const {
+    bool shouldTurn(const Diamond& d) const {
         const auto [p, q] = d.tips;
         const double least = kLeastHeight * step_;
         if (heightOf(d.a, p, q) < least || heightOf(d.b, p, q) < least) return false;
-        const double now = std::max({c.off, offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
+        const double now = std::max({offBetween(at(d.a), at(d.b)), offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
         const double then = std::max({offBetween(at(p), at(q)), offOf(d.a, p, q), offOf(d.b, p, q)});
         return then < kGain * now;
     }
