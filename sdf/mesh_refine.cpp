@@ -37,13 +37,15 @@ constexpr double kMended = 0.25;
 constexpr double kNarrowest = 0.02;
 /// Of a cell's side: edges that are longer were drawn so, to a sharp edge, and its limit is theirs.
 constexpr double kLong = 2.0;
+/// Of a cell's side: shorter edges are left alone.
+constexpr double kShortest = 0.1;
 
 /// Cosine between triangles' normals by a sharp edge.
 constexpr double kFolded = 0.95;
 /// Of the way from its middle to a tip: where its sides are asked for; of the limit: they meet there.
 constexpr double kNear = 0.1, kByTip = 0.6, kOn = 1e-2;
 
-constexpr int kMostShifts = 4;
+constexpr int kMostShifts = 4, kMostStuck = 4;
 constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
 
 struct Candidate {
@@ -90,6 +92,7 @@ class Refiner {
                 std::uint32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
                 if (all && a > b) continue;  // the other triangle asks
                 if (a > b) std::swap(a, b);
+                if (isStuck(a) || isStuck(b)) continue;
                 if (const double off = tooFarOff(a, b); off > 0.0) found.push_back({a, b, off});
             }
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
@@ -104,6 +107,7 @@ class Refiner {
     /// sin(beta) from their line, and what is on one of them is not off at all.
     double tooFarOff(std::uint32_t a, std::uint32_t b) const {
         const glm::dvec3 middle = 0.5 * (at(a) + at(b));
+        if (glm::distance(at(a), at(b)) < kShortest * step_) return 0.0;
         const double off = offAt(middle);
         Diamond d;
         if (off > limits_.smooth || !edit_.diamondOf(a, b, d)) return off > limits_.smooth ? off : 0.0;
@@ -163,7 +167,9 @@ class Refiner {
         } else if (shift(c.a) || shift(c.b) || divide(now, d, false)) {
             return;
         }
-        if (!draw(c.a)) draw(c.b);
+        if (draw(c.a) || draw(c.b)) return;
+        stuck_.resize(edit_.mesh().position_world.size(), 0);
+        ++stuck_[c.a], ++stuck_[c.b];
     }
 
     /// No sharp edge is near: along the edge, and between the tips, the normal turns evenly.
@@ -213,6 +219,7 @@ class Refiner {
         }
         return most;
     }
+    bool isStuck(std::uint32_t v) const { return v < stuck_.size() && stuck_[v] > kMostStuck; }
     bool tooOften(std::uint32_t v, std::vector<int>& tried) const {
         tried.resize(edit_.mesh().position_world.size(), 0);
         return tried[v]++ >= kMostShifts;
@@ -369,7 +376,7 @@ class Refiner {
     const SharpCells& sharp_;
     const MeshLimits limits_;
     std::size_t added_ = 0;
-    std::vector<int> shifts_, draws_;  ///< how often vertices were asked to go elsewhere
+    std::vector<int> shifts_, draws_, stuck_;  ///< how often vertices were asked to go elsewhere
     std::vector<std::uint32_t> touched_, neighbours_;
 };
 
