@@ -129,7 +129,7 @@ class Builder {
     void read(std::uint32_t b) {
         const Brick& brick = complex_.bricks.bricks[b];
         crossings_.readValues(lattice_, brick);
-        wedges_.turnIn(brick, crossings_);
+        complex_.turned += wedges_.turnIn(brick, crossings_);
         crossings_.findCrossings(lattice_, brick);
         requireClosed(crossings_.open(lattice_, brick));
         addPolygons(b);

@@ -59,6 +59,7 @@ struct DualComplex {
     std::vector<DualVertex> vertices;
     std::vector<DualPolygon> polygons;
     std::uint64_t cells = 0;
+    std::uint64_t turned = 0;  ///< corners of bricks: dual_wedges
     std::vector<std::bitset<kBrickCells * kBrickCells * kBrickCells>> passed;  ///< cells, by brick
 };
 

@@ -77,6 +77,7 @@ class DualContouring {
     /// False: it is as near as it can be.
     bool meshBricks(int round) {
         DualComplex complex = dualComplex(request_, std::move(bricks_));
+        counts_.turned = complex.turned;
         counts_.debris = leaveOutDebris(request_, complex);
         counts_.nodes = complex.bricks.nodes, counts_.pruned = complex.bricks.pruned;
         counts_.bricks = complex.bricks.bricks.size(), counts_.cells = complex.cells;

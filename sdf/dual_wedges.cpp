@@ -14,17 +14,19 @@ constexpr int kMostSteps = 200;
 
 }  // namespace
 
-void WedgeCorners::turnIn(const Brick& brick, BrickCrossings& crossings) const {
-    if (!request_.bound_holds) return;
+std::size_t WedgeCorners::turnIn(const Brick& brick, BrickCrossings& crossings) const {
+    if (!request_.bound_holds) return 0;
     const double cell = request_.lattice.step / (1 << brick.level);
     constexpr int kSide = BrickCrossings::kSide;
+    std::size_t count = 0;
     for (int n = 0; n < BrickCrossings::kCorners; ++n) {
         const glm::ivec3 place(n % kSide, n / kSide % kSide, n / (kSide * kSide));
         const double value = crossings.value(place);
         if (std::abs(value) < 0.5 * cell * request_.tape.lipschitz &&
             isThin(brick.tape, brick.unitsOf(place), value))
-            crossings.turn(place);
+            crossings.turn(place), ++count;
     }
+    return count;
 }
 
 double WedgeCorners::valueAt(const glm::ivec3& unit) const {

@@ -16,8 +16,8 @@ class WedgeCorners {
   public:
     WedgeCorners(const MeshRequest& request, const BrickList& bricks) : request_(request), bricks_(bricks) {}
 
-    /// Turns the brick's; the same ones whichever brick asks.
-    void turnIn(const Brick& brick, BrickCrossings& crossings) const;
+    /// Turns the brick's, so many; the same ones whichever brick asks.
+    std::size_t turnIn(const Brick& brick, BrickCrossings& crossings) const;
 
     /// By the whole tape: the corner's value, its sign turned where it is.
     double valueAt(const glm::ivec3& unit) const;

@@ -38,7 +38,7 @@ constexpr double kNarrowest = 0.02;
 /// Of a cell's side: edges that are longer were drawn so, to a sharp edge, and its limit is theirs.
 constexpr double kLong = 2.0;
 /// Of a cell's side: shorter edges are left alone.
-constexpr double kShortest = 0.1;
+constexpr double kShortest = 0.05;
 
 /// Cosine between triangles' normals by a sharp edge.
 constexpr double kFolded = 0.95;
@@ -63,9 +63,13 @@ class Refiner {
         for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
         std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
+        std::size_t budget = edit_.mesh().position_world.size();
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
             touched_.clear();
-            for (const Candidate& c : candidatesOf(active, round == 0)) improve(c);
+            const std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            if (candidates.size() > budget) break;  // cells are too large for this surface
+            budget -= candidates.size();
+            for (const Candidate& c : candidates) improve(c);
             std::sort(touched_.begin(), touched_.end());
             touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
             for (const std::uint32_t v : std::vector(touched_)) shiftBack(v);
