@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf/evaluate.h"
+#include "sdf/dual_wedges.h"
 #include "sdf/mesh_feature.h"
 #include "sdf/scene_error.h"
 
@@ -38,7 +38,8 @@ struct BorderCrossing {
 
 class Builder {
   public:
-    Builder(const MeshRequest& request, BrickList bricks) : request_(request), lattice_(request.lattice) {
+    Builder(const MeshRequest& request, BrickList bricks)
+        : lattice_(request.lattice), wedges_(request, complex_.bricks) {
         complex_.bricks = std::move(bricks);
     }
 
@@ -119,6 +120,7 @@ class Builder {
         polygon.outward = crossings_.value(place) < 0.0;
         polygon.brick = b;
         polygon.crossing = {crossing->place_world, crossing->normal_world};
+        polygon.made = crossing->made;
         complex_.polygons.push_back(polygon);
     }
 
@@ -126,7 +128,9 @@ class Builder {
 
     void read(std::uint32_t b) {
         const Brick& brick = complex_.bricks.bricks[b];
-        crossings_.read(lattice_, brick);
+        crossings_.readValues(lattice_, brick);
+        complex_.turned += wedges_.turnIn(brick, crossings_);
+        crossings_.findCrossings(lattice_, brick);
         requireClosed(crossings_.open(lattice_, brick));
         addPolygons(b);
         const bool smaller_around = smallerAround(brick.first, kBrickCells * brick.cellUnits(), brick.level);
@@ -275,9 +279,9 @@ class Builder {
         segments_.clear();
         for (int axis = 0; axis < 3; ++axis) {
             FacePart face{cell.low, axis, cell.side};
-            addSegments(b, face, -1);
+            addSegments(face, -1);
             face.low[axis] += cell.side;
-            addSegments(b, face, 0);
+            addSegments(face, 0);
         }
         if (segments_.empty()) return;
         const std::vector<std::vector<std::uint32_t>> loops = loopsOfSegments();
@@ -303,20 +307,20 @@ class Builder {
         return level;
     }
 
-    void addSegments(std::uint32_t b, const FacePart& face, int beyond) {
+    void addSegments(const FacePart& face, int beyond) {
         glm::ivec3 other = face.low;
         other[face.axis] += beyond;
-        if (complex_.bricks.leafAt(lattice_, other).level <= levelOf(face.side)) return addPart(b, face);
+        if (complex_.bricks.leafAt(lattice_, other).level <= levelOf(face.side)) return addPart(face);
         const int half = face.side / 2;
         for (int n = 0; n < 4; ++n) {
             FacePart part{face.low, face.axis, half};
             part.low[(face.axis + 1) % 3] += (n & 1) * half;
             part.low[(face.axis + 2) % 3] += (n >> 1) * half;
-            addSegments(b, part, beyond);
+            addSegments(part, beyond);
         }
     }
 
-    void addPart(std::uint32_t b, const FacePart& face) {
+    void addPart(const FacePart& face) {
         const int u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
         glm::ivec3 at_u = face.low, at_v = face.low;
         at_u[u] += face.side, at_v[v] += face.side;
@@ -327,7 +331,7 @@ class Builder {
         whole &= cross(face.low, v, face.side, true);
         const std::size_t count = border_.size();
         if (count % 2 != 0) fail();
-        const bool joined = count == 4 && whole && insidesJoined(b, face);
+        const bool joined = count == 4 && whole && insidesJoined(face);
         for (std::size_t n = 0; n < count; ++n) {
             if (!border_[n].leaving) continue;
             const BorderCrossing& other = border_[joined ? (n + 1) % count : (n + count - 1) % count];
@@ -351,14 +355,14 @@ class Builder {
         return true;
     }
     /// As mesh_cell decides it.
-    bool insidesJoined(std::uint32_t b, const FacePart& face) const {
+    bool insidesJoined(const FacePart& face) const {
         const int u = (face.axis + 1) % 3, v = (face.axis + 2) % 3;
         double value[4];
         for (int n = 0; n < 4; ++n) {
             glm::ivec3 corner = face.low;
             if (n == 1 || n == 2) corner[u] += face.side;
             if (n >= 2) corner[v] += face.side;
-            value[n] = valueAt(complex_.bricks.bricks[b].tape, lattice_.corner(corner));
+            value[n] = wedges_.valueAt(corner);
         }
         const double first = value[0] * value[2], second = value[1] * value[3];
         return value[0] < 0.0 ? first > second : second > first;
@@ -386,9 +390,9 @@ class Builder {
         return loops;
     }
 
-    const MeshRequest& request_;
     const Lattice& lattice_;
     DualComplex complex_;
+    const WedgeCorners wedges_;
     BrickCrossings crossings_;
     std::vector<std::uint32_t> polygon_at_;  ///< by brick, corner and axis
     std::vector<PlainCell> plain_;

@@ -49,6 +49,7 @@ struct DualPolygon {
     std::array<std::uint32_t, 4> across{kNoVertex, kNoVertex, kNoVertex, kNoVertex};
     std::array<std::uint8_t, 4> across_side{};
     TangentPlane crossing{};  ///< of the surface with the edge
+    bool made = false;        ///< the crossing is not on the surface: dual_wedges
 
     bool isSide(int k) const { return vertex[k] != vertex[(k + 1) % 4]; }
 };
@@ -58,6 +59,7 @@ struct DualComplex {
     std::vector<DualVertex> vertices;
     std::vector<DualPolygon> polygons;
     std::uint64_t cells = 0;
+    std::uint64_t turned = 0;  ///< corners of bricks: dual_wedges
     std::vector<std::bitset<kBrickCells * kBrickCells * kBrickCells>> passed;  ///< cells, by brick
 };
 

@@ -11,6 +11,7 @@ class TapeAt {
   public:
     TapeAt(const Tape& whole, const Lattice& lattice, const BrickList& bricks);
     TapeView operator()(const glm::dvec3& p_world) const;
+    TapeView whole() const { return TapeView(whole_); }
 
   private:
     const Tape& whole_;

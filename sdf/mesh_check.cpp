@@ -32,7 +32,8 @@ class Check {
 
     std::vector<PlaceOff> run() {
         for (const Triangle& t : mesh_.triangles) takeTriangle(t);
-        for (const DualPolygon& p : complex_.polygons) takePlace(p.brick, p.crossing.point);
+        for (const DualPolygon& p : complex_.polygons)
+            if (!p.made) takePlace(p.brick, p.crossing.point);
         for (std::uint32_t b = 0; b < complex_.bricks.bricks.size(); ++b)
             if (!complex_.bricks.bricks[b].divided) takeBrick(b);
         return std::move(off_);

@@ -1,6 +1,7 @@
 #include "sdf/mesh_crossings.h"
 
 #include <cmath>
+#include <limits>
 
 #include "sdf/evaluate.h"
 
@@ -50,12 +51,8 @@ struct Roots {
 
 }  // namespace
 
-void BrickCrossings::read(const Lattice& lattice, const Brick& brick) {
-    readValues(lattice, brick);
-    findCrossings(lattice, brick);
-}
-
 void BrickCrossings::readValues(const Lattice& lattice, const Brick& brick) {
+    turned_.reset();
     LanePoints points;
     double values[kPointLanes];
     for (int begin = 0; begin < kCorners; begin += kPointLanes) {
@@ -115,13 +112,7 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
             const Edge& e = edges[lane];
             glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
             p[e.axis] = roots.lane[lane].root;
-            const glm::dvec3 gradient = gradientAt(brick.tape, p).gradient;
-            const double length = glm::length(gradient);
-            glm::dvec3 normal(0.0);
-            normal[e.axis] = value(e.corner) < 0.0 ? 1.0 : -1.0;
-            if (length > 0.0 && std::isfinite(length)) normal = gradient / length;
-            at_[e.axis][indexOf(e.corner)] = static_cast<int>(crossings_.size());
-            crossings_.push_back({p, normal});
+            addCrossing(brick, e.corner, e.axis, p, false);
         }
         waiting = 0;
     };
@@ -134,10 +125,33 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
                     glm::ivec3 end = corner;
                     ++end[axis];
                     if ((value(corner) < 0.0) == (value(end) < 0.0)) continue;
+                    if (turned_[indexOf(corner)] || turned_[indexOf(end)]) {
+                        const glm::dvec3 middle = 0.5 * (lattice.corner(brick.unitsOf(corner)) +
+                                                         lattice.corner(brick.unitsOf(end)));
+                        addCrossing(brick, corner, axis, middle, true);
+                        continue;
+                    }
                     edges[waiting++] = {corner, axis};
                     if (waiting == kPointLanes) solve();
                 }
     if (waiting > 0) solve();
+}
+
+void BrickCrossings::addCrossing(const Brick& brick, const glm::ivec3& corner, int axis, const glm::dvec3& p,
+                                 bool made) {
+    const glm::dvec3 gradient = gradientAt(brick.tape, p).gradient;
+    const double length = glm::length(gradient);
+    glm::dvec3 normal(0.0);
+    normal[axis] = value(corner) < 0.0 ? 1.0 : -1.0;
+    if (length > 0.0 && std::isfinite(length)) normal = gradient / length;
+    at_[axis][indexOf(corner)] = static_cast<int>(crossings_.size());
+    crossings_.push_back({p, normal, made});
+}
+
+void BrickCrossings::turn(const glm::ivec3& c) {
+    double& value = values_[indexOf(c)];
+    value = value < 0.0 ? -value : -std::max(value, std::numeric_limits<double>::min());
+    turned_.set(indexOf(c));
 }
 
 bool BrickCrossings::open(const Lattice& lattice, const Brick& brick) const {

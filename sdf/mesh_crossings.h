@@ -1,6 +1,7 @@
 // Where the surface crosses the edges of a brick's cells.
 #pragma once
 
+#include <bitset>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace edgewise::sdf {
 struct Crossing {
     glm::dvec3 place_world;
     glm::dvec3 normal_world;  ///< unit, outward: the gradient's direction there
+    bool made = false;        ///< of a corner that was turned: the surface is not there
 };
 
 /// One brick's values at its corners and crossings of its edges; those on its upper faces are the neighbours'
@@ -21,10 +23,15 @@ class BrickCrossings {
     static constexpr int kSide = kBrickCells + 1, kCorners = kSide * kSide * kSide;
 
     /// Reads the brick anew.
-    void read(const Lattice& lattice, const Brick& brick);
-
+    void read(const Lattice& lattice, const Brick& brick) {
+        readValues(lattice, brick);
+        findCrossings(lattice, brick);
+    }
     /// Its values alone.
     void readValues(const Lattice& lattice, const Brick& brick);
+    /// From then on a corner counts as on the surface's other side; edges cross it in their middle there.
+    void turn(const glm::ivec3& c);
+    void findCrossings(const Lattice& lattice, const Brick& brick);
 
     /// By a corner's place in the brick.
     double value(const glm::ivec3& c) const { return values_[indexOf(c)]; }
@@ -49,10 +56,11 @@ class BrickCrossings {
     static int indexOf(const glm::ivec3& c) { return c.x + kSide * (c.y + kSide * c.z); }
 
   private:
-    void findCrossings(const Lattice& lattice, const Brick& brick);
+    void addCrossing(const Brick& brick, const glm::ivec3& corner, int axis, const glm::dvec3& p, bool made);
 
     std::array<double, kCorners> values_;
     std::array<std::array<int, kCorners>, 3> at_;
+    std::bitset<kCorners> turned_;
     std::vector<Crossing> crossings_;
 };
 

@@ -4,19 +4,23 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "sdf/evaluate.h"
-#include "sdf/mesh_embedding.h"
+#include "sdf/mesh_edit.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
 namespace {
 
-constexpr int kRounds = 10, kRetreats = 12, kMostStuck = 2;
-/// A new vertex is worth it when what is off becomes less than this part.
+constexpr int kRounds = 10;
+/// A change is worth it when what is off becomes less than this part.
 constexpr double kGain = 0.8;
 /// Of an edge's length: from its middle to where it is divided.
 constexpr double kFarthest = 1.0;
+/// Of a cell's side: a sharp edge or corner may be so far from where it is looked for.
+constexpr double kReach = 4.0;
 /// Of a cell's side: triangles that turned edges make are no narrower.
 constexpr double kLeastHeight = 1e-3;
 
@@ -27,86 +31,73 @@ constexpr double kByEnd = 0.8, kEnd = 0.97;
 constexpr double kEven = 1.5, kSlight = 0.03;
 /// Of a cell's side: a vertex counts as on the surface.
 constexpr double kOff = 1e-6;
+/// Of the limit by sharp edges: vertices further off, which mending has left there, are asked to go back.
+constexpr double kMended = 0.25;
+/// The sine of half a wedge's angle: narrower ones count as of that.
+constexpr double kNarrowest = 0.02;
+/// Of a cell's side: edges that are longer were drawn so, to a sharp edge, and its limit is theirs.
+constexpr double kLong = 2.0;
+/// Of a cell's side: shorter edges are left alone.
+constexpr double kShortest = 0.05;
 
-constexpr int kMostShifts = 2;
-constexpr std::size_t kShiftPlanes = 16;
+/// Cosine between triangles' normals by a sharp edge.
+constexpr double kFolded = 0.95;
+/// Of the way from its middle to a tip: where its sides are asked for; of the limit: they meet there.
+constexpr double kNear = 0.1, kByTip = 0.6, kOn = 1e-2;
+
+constexpr int kMostShifts = 4, kMostStuck = 4;
+constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
 
 struct Candidate {
     std::uint32_t a, b;
     double off;
-};
-struct Added {
-    std::uint32_t vertex;
-    glm::dvec3 middle;
-    int retreats = 0;
-};
-struct Shifted {
-    std::uint32_t vertex;
-    glm::dvec3 from;
-};
-/// Two triangles' common edge a-b, and their other corners.
-struct Diamond {
-    std::uint32_t a, b;
-    std::array<std::uint32_t, 2> sides, tips;
 };
 
 class Refiner {
   public:
     Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
             const MeshLimits& limits)
-        : mesh_(mesh),
-          tape_(tape),
-          step_(step),
-          sharp_(sharp),
-          limits_(limits),
-          around_(mesh.position_world.size()),
-          stuck_(mesh.position_world.size(), 0) {
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-            for (const std::uint32_t v : mesh.triangles[t]) around_[v].push_back(t);
-    }
+        : edit_(mesh, step), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
 
     std::size_t run() {
-        std::vector<std::uint32_t> active(mesh_.triangles.size());
+        for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
+        std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
-        std::size_t all = 0;
+        std::size_t budget = edit_.mesh().position_world.size();
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
-            const SurfaceMesh before = mesh_;
-            touched_.assign(mesh_.triangles.size(), false);
-            added_.clear(), turned_.clear(), shifted_.clear();
-            std::vector<std::uint32_t> later;
-            for (const Candidate& c : candidatesOf(active)) improve(c, later);
-            all += added_.size();
-            if (added_.empty() && turned_.empty() && shifted_.empty()) break;
-            if (!retreat()) {
-                mesh_ = before;
-                break;
-            }
-            active = std::move(later);
-            for (std::uint32_t t = 0; t < touched_.size(); ++t)
-                if (touched_[t]) active.push_back(t);
+            touched_.clear();
+            const std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            if (candidates.size() > budget) break;  // cells are too large for this surface
+            budget -= candidates.size();
+            for (const Candidate& c : candidates) improve(c);
+            std::sort(touched_.begin(), touched_.end());
+            touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+            for (const std::uint32_t v : std::vector(touched_)) shiftBack(v);
+            active.clear();
+            for (const std::uint32_t v : touched_)
+                active.insert(active.end(), edit_.around(v).begin(), edit_.around(v).end());
             std::sort(active.begin(), active.end());
             active.erase(std::unique(active.begin(), active.end()), active.end());
         }
-        return all;
+        edit_.compact();
+        return added_;
     }
 
   private:
-    const glm::dvec3& at(std::uint32_t v) const { return mesh_.position_world[v]; }
-    double offBetween(const glm::dvec3& a, const glm::dvec3& b) const {
-        const glm::dvec3 middle = 0.5 * (a + b);
-        return std::abs(valueAt(tape_(middle), middle));
-    }
+    const glm::dvec3& at(std::uint32_t v) const { return edit_.at(v); }
+    const Triangle& triangle(std::uint32_t t) const { return edit_.mesh().triangles[t]; }
+    double offAt(const glm::dvec3& p) const { return std::abs(valueAt(tape_(p), p)); }
+    double offBetween(const glm::dvec3& a, const glm::dvec3& b) const { return offAt(0.5 * (a + b)); }
 
-    std::vector<Candidate> candidatesOf(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<Candidate> candidatesOf(const std::vector<std::uint32_t>& triangles, bool all) const {
         std::vector<Candidate> found;
         for (const std::uint32_t t : triangles)
             for (int i = 0; i < 3; ++i) {
-                std::uint32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
-                if (stuck_[a] > kMostStuck || stuck_[b] > kMostStuck) continue;
+                std::uint32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
+                if (all && a > b) continue;  // the other triangle asks
                 if (a > b) std::swap(a, b);
-                const double off = offBetween(at(a), at(b));
-                if (off > limits_.smooth || (off > limits_.sharp && sharp_.at(0.5 * (at(a) + at(b)))))
-                    found.push_back({a, b, off});
+                if (isStuck(a) || isStuck(b)) continue;
+                if (const double off = tooFarOff(a, b); off > 0.0) found.push_back({a, b, off});
             }
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
@@ -115,40 +106,74 @@ class Refiner {
         found.erase(std::unique(found.begin(), found.end(), same), found.end());
         return found;
     }
-
-    static std::uint32_t third(const Triangle& t, std::uint32_t a, std::uint32_t b) {
-        return t[0] != a && t[0] != b ? t[0] : t[1] != a && t[1] != b ? t[1] : t[2];
-    }
-
-    /// False: the edge has not two triangles.
-    bool diamondOf(std::uint32_t a, std::uint32_t b, Diamond& d) const {
-        d.a = a, d.b = b;
-        std::size_t count = 0;
-        for (const std::uint32_t t : around_[a])
-            if (holds(mesh_.triangles[t], b) && count < 2) d.sides[count++] = t;
-        if (count != 2) return false;
-        for (int i = 0; i < 2; ++i) d.tips[i] = third(mesh_.triangles[d.sides[i]], a, b);
-        return d.tips[0] != d.tips[1];
-    }
-    static bool holds(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
-    bool isEdge(std::uint32_t a, std::uint32_t b) const {
-        return std::any_of(around_[a].begin(), around_[a].end(),
-                           [&](std::uint32_t t) { return holds(mesh_.triangles[t], b); });
-    }
-
-    void improve(const Candidate& c, std::vector<std::uint32_t>& later) {
+    /// How far an edge is off, or 0 where that is within its limit. A sharp edge is further away than the
+    /// surface is: where planes meet at an angle of 2 beta, what is d from both on their middle is d /
+    /// sin(beta) from their line, and what is on one of them is not off at all.
+    double tooFarOff(std::uint32_t a, std::uint32_t b) const {
+        const glm::dvec3 middle = 0.5 * (at(a) + at(b));
+        if (glm::distance(at(a), at(b)) < kShortest * step_) return 0.0;
+        const double off = offAt(middle);
         Diamond d;
-        if (!diamondOf(c.a, c.b, d)) return;
-        if (touched_[d.sides[0]] || touched_[d.sides[1]]) {
-            later.insert(later.end(), d.sides.begin(), d.sides.end());
+        if (off > limits_.smooth || !edit_.diamondOf(a, b, d)) return off > limits_.smooth ? off : 0.0;
+        if (isFolded(d)) {
+            const double far = std::max(off, sharpEdgeFrom(d));
+            return far > limits_.sharp ? far : 0.0;
+        }
+        if (off <= kNarrowest * limits_.sharp) return 0.0;
+        if (!sharp_.at(middle) && glm::distance(at(a), at(b)) <= kLong * step_) return 0.0;
+        return off > limits_.sharp || off > limits_.sharp * halfAngleSine(d) ? off : 0.0;
+    }
+    bool isFolded(const Diamond& d) const {
+        const glm::dvec3 first = normalOf(d.sides[0]), second = normalOf(d.sides[1]);
+        const double cosine = glm::dot(first, second);
+        return cosine < 0.0 ||
+               cosine * cosine < kFolded * kFolded * glm::dot(first, first) * glm::dot(second, second);
+    }
+    glm::dvec3 normalOf(std::uint32_t t) const {
+        const auto& [a, b, c] = triangle(t);
+        return glm::cross(at(b) - at(a), at(c) - at(a));
+    }
+    /// From its middle to the sharp edge of its two sides.
+    double sharpEdgeFrom(const Diamond& d) const {
+        const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
+        const auto offTowards = [&](std::uint32_t tip) { return offAt(middle + kNear * (at(tip) - middle)); };
+        if (std::max(offTowards(d.tips[0]), offTowards(d.tips[1])) < kOn * limits_.sharp) return 0.0;
+        std::vector<TangentPlane> planes;
+        for (const std::uint32_t v : {d.a, d.b, d.tips[0], d.tips[1]})
+            addPlane(tape_.whole(), middle + kByTip * (at(v) - middle), planes);
+        if (planes.empty()) return 0.0;
+        const FeaturePoint point = featurePoint(tape_.whole(), planes, middle, 0.5 * kReach * step_);
+        return point.rank < 2 ? 0.0 : glm::distance(point.place_world, middle);
+    }
+    double halfAngleSine(const Diamond& d) const {
+        const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
+        const TapeView tape = tape_(middle);
+        std::array<glm::dvec3, 4> normals;
+        double least = 1.0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::uint32_t v = i == 0 ? d.a : i == 1 ? d.b : d.tips[i - 2];
+            normals[i] = normalNear(tape, middle + kByEnd * (at(v) - middle));
+            for (std::size_t j = 0; j < i; ++j) least = std::min(least, glm::dot(normals[i], normals[j]));
+        }
+        return std::max(std::sqrt(std::max(0.5 * (1.0 + least), 0.0)), kNarrowest);
+    }
+
+    void touch(const Diamond& d) { touched_.insert(touched_.end(), {d.a, d.b, d.tips[0], d.tips[1]}); }
+
+    void improve(const Candidate& c) {
+        Diamond d;
+        if (!edit_.diamondOf(c.a, c.b, d)) return;
+        const Candidate now{c.a, c.b, tooFarOff(c.a, c.b)};  // others may have changed it
+        if (now.off == 0.0) return;
+        if (shouldTurn(d) && edit_.turn(d)) return touch(d);
+        if (!isFolded(d) && isEven(d)) {
+            if (divide(now, d, true) || shiftOff(c.a) || shiftOff(c.b)) return;
+        } else if (shift(c.a) || shift(c.b) || divide(now, d, false)) {
             return;
         }
-        if (shouldTurn(c, d))
-            turn(d), turned_.push_back(d);
-        else if (!isEven(d))
-            divide(c, d, false) || shift(c.a) || shift(c.b);
-        else
-            (c.off > limits_.smooth && divide(c, d, true)) || shiftOff(c.a) || shiftOff(c.b);
+        if (draw(c.a) || draw(c.b)) return;
+        stuck_.resize(edit_.mesh().position_world.size(), 0);
+        ++stuck_[c.a], ++stuck_[c.b];
     }
 
     /// No sharp edge is near: along the edge, and between the tips, the normal turns evenly.
@@ -184,133 +209,147 @@ class Refiner {
             if (!(turns[n] <= kEven * turned * ways[n] / way + kSlight)) return false;
         return true;
     }
-    bool shiftOff(std::uint32_t v) {
-        return std::abs(valueAt(tape_(at(v)), at(v))) > kOff * step_ && shift(v);
+    void shiftBack(std::uint32_t v) {
+        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limits_.sharp) shift(v);
     }
+    bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * step_ && shift(v); }
 
     /// How far the triangles around a vertex would be off the surface with it there.
     double offWith(std::uint32_t v, const glm::dvec3& p) const {
-        double most = std::abs(valueAt(tape_(p), p));
-        for (const std::uint32_t t : around_[v]) {
-            const auto [a, b] = othersOf(mesh_.triangles[t], v);
-            const glm::dvec3 centre = (p + at(a) + at(b)) / 3.0;
-            most = std::max({most, offBetween(p, at(a)), std::abs(valueAt(tape_(centre), centre))});
+        double most = offAt(p);
+        for (const std::uint32_t t : edit_.around(v)) {
+            const auto [a, b] = othersOf(triangle(t), v);
+            most = std::max({most, offBetween(p, at(a)), offAt((p + at(a) + at(b)) / 3.0)});
         }
         return most;
     }
-    /// In the triangle's order.
-    static std::array<std::uint32_t, 2> othersOf(const Triangle& t, std::uint32_t v) {
-        return t[0] == v   ? std::array{t[1], t[2]}
-               : t[1] == v ? std::array{t[2], t[0]}
-                           : std::array{t[0], t[1]};
+    bool isStuck(std::uint32_t v) const { return v < stuck_.size() && stuck_[v] > kMostStuck; }
+    bool tooOften(std::uint32_t v, std::vector<int>& tried) const {
+        tried.resize(edit_.mesh().position_world.size(), 0);
+        return tried[v]++ >= kMostShifts;
     }
+    void touchAround(std::uint32_t v) {
+        edit_.neighboursOf(v, neighbours_);
+        touched_.insert(touched_.end(), neighbours_.begin(), neighbours_.end());
+        touched_.push_back(v);
+    }
+
     /// To the sharp edge or corner that its neighbourhood has, or to the surface, where that is nearer all
     /// around.
     bool shift(std::uint32_t v) {
-        for (const std::uint32_t t : around_[v])
-            if (touched_[t]) return false;
-        tried_.resize(mesh_.position_world.size(), 0);
-        if (tried_[v]++ >= kMostShifts) return false;
+        if (tooOften(v, shifts_)) return false;
         const glm::dvec3 from = at(v);
-        const TapeView tape = tape_(from);
-        double best = kGain * offWith(v, from), reach = 0.0;
-        glm::dvec3 to = from;
+        const TapeView tape = tape_.whole();
+        const double most = kGain * offWith(v, from);
+        double reach = kReach * step_;
         std::vector<TangentPlane> planes;
-        for (const std::uint32_t t : around_[v]) {
-            const glm::dvec3 side = at(othersOf(mesh_.triangles[t], v)[0]) - from;
+        for (const std::uint32_t t : edit_.around(v)) {
+            const glm::dvec3 side = at(othersOf(triangle(t), v)[0]) - from;
             reach = std::max(reach, glm::length(side));
             for (const double part : {0.3, 0.7})
                 if (planes.size() < kShiftPlanes) addPlane(tape, from + part * side, planes);
         }
+        std::vector<std::pair<double, glm::dvec3>> ways;
         const auto attempt = [&](const glm::dvec3& p) {
             if (!(glm::distance(p, from) <= reach)) return;
-            if (const double off = offWith(v, p); off < best) best = off, to = p;
+            if (const double off = offWith(v, p); off < most) ways.push_back({off, p});
         };
-        if (!planes.empty()) attempt(featurePoint(tape, planes, from, step_).place_world);
+        if (!planes.empty()) attempt(featurePoint(tape, planes, from, 0.5 * kReach * step_).place_world);
         attempt(onSurface(tape, from));
-        if (to == from) return false;
-        shifted_.push_back({v, from});
-        mesh_.position_world[v] = to;
-        for (const std::uint32_t t : around_[v]) touched_[t] = true;
-        return true;
+        if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
+        for (const auto& [off, p] : ways)
+            for (const glm::dvec3& to : {p, 0.5 * (from + p)})
+                if (offWith(v, to) < most && edit_.move(v, to)) return touchAround(v), true;
+        return false;
+    }
+
+    /// A vertex into the neighbour that leaves what is nearest to the surface, and, if it was on it, does not
+    /// leave its place.
+    bool draw(std::uint32_t v) {
+        if (tooOften(v, draws_)) return false;
+        const bool on_surface = offAt(at(v)) <= limits_.sharp;
+        const double most = kGain * offWith(v, at(v));
+        edit_.neighboursOf(v, neighbours_);
+        std::vector<std::pair<double, std::uint32_t>> ways;
+        for (const std::uint32_t u : neighbours_)
+            if (const double off = offDrawn(v, u); off < most && !(on_surface && leavesPlace(v, u, most)))
+                ways.push_back({off, u});
+        std::sort(ways.begin(), ways.end());
+        for (std::size_t n = 0; n < std::min(ways.size(), kMostWays); ++n)
+            if (edit_.collapse(v, ways[n].second)) return touchAround(ways[n].second), true;
+        return false;
+    }
+    double offDrawn(std::uint32_t v, std::uint32_t u) const {
+        double most = 0.0;
+        for (const std::uint32_t t : edit_.around(v)) {
+            if (holds(triangle(t), u)) continue;
+            const auto [a, b] = othersOf(triangle(t), v);
+            most = std::max({most, offBetween(at(u), at(a)), offBetween(at(u), at(b)), offOf(u, a, b)});
+        }
+        return most;
+    }
+
+    /// By more than so far.
+    bool leavesPlace(std::uint32_t v, std::uint32_t u, double most) const {
+        return std::none_of(edit_.around(v).begin(), edit_.around(v).end(), [&](std::uint32_t t) {
+            const auto [a, b] = othersOf(triangle(t), v);
+            return a != u && b != u && squaredDistance(at(v), at(u), at(a), at(b)) <= most * most;
+        });
     }
 
     double offOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const glm::dvec3 centre = (at(a) + at(b) + at(c)) / 3.0;
-        return std::abs(valueAt(tape_(centre), centre));
+        return offAt((at(a) + at(b) + at(c)) / 3.0);
     }
     double heightOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         const double longest =
             std::max({glm::distance(at(a), at(b)), glm::distance(at(b), at(c)), glm::distance(at(c), at(a))});
         return glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / longest;
     }
-    /// The other diagonal is nearer to the surface, and makes no slivers nor folds.
-    bool shouldTurn(const Candidate& c, const Diamond& d) const {
+    /// The other diagonal is nearer to the surface, and makes no slivers.
+    bool shouldTurn(const Diamond& d) const {
         const auto [p, q] = d.tips;
-        if (isEdge(p, q) || wasTurned(p, q)) return false;
         const double least = kLeastHeight * step_;
         if (heightOf(d.a, p, q) < least || heightOf(d.b, p, q) < least) return false;
-        const double now = std::max({c.off, offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
+        const double now = std::max({offBetween(at(d.a), at(d.b)), offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
         const double then = std::max({offBetween(at(p), at(q)), offOf(d.a, p, q), offOf(d.b, p, q)});
         return then < kGain * now;
-    }
-    bool wasTurned(std::uint32_t p, std::uint32_t q) const {
-        return std::any_of(turned_.begin(), turned_.end(), [&](const Diamond& d) {
-            return (d.a == p && d.b == q) || (d.a == q && d.b == p);
-        });
-    }
-    /// The edge between the tips in the place of a-b.
-    void turn(const Diamond& d) {
-        const auto [s, t] = d.sides;
-        const auto [p, q] = d.tips;
-        std::replace(mesh_.triangles[s].begin(), mesh_.triangles[s].end(), d.b, q);
-        std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), d.a, p);
-        std::erase(around_[d.b], s), std::erase(around_[d.a], t);
-        around_[q].push_back(s), around_[p].push_back(t);
-        touched_[s] = touched_[t] = true;
     }
 
     /// `even`: no sharp edge is near.
     bool divide(const Candidate& c, const Diamond& d, bool even) {
-        glm::dvec3 place;
-        if (!placeFor(c, d.tips, even, place)) return false;
-        const auto v = static_cast<std::uint32_t>(mesh_.position_world.size());
-        mesh_.position_world.push_back(place);
-        around_.emplace_back(), stuck_.push_back(0);
-        added_.push_back({v, 0.5 * (at(c.a) + at(c.b))});
-        for (int i = 0; i < 2; ++i) splitTriangle(d.sides[i], c.a, c.b, d.tips[i], v);
-        return true;
+        const glm::dvec3 middle = 0.5 * (at(c.a) + at(c.b));
+        for (const auto& [off, place] : placesFor(c, d.tips, even)) {
+            const glm::dvec3 half = 0.5 * (middle + place);
+            if (!edit_.divide(d, place) && !(offDivided(c, half) < kGain * c.off && edit_.divide(d, half)))
+                continue;
+            ++added_;
+            touch(d);
+            return true;
+        }
+        return false;
     }
 
-    /// The half at b becomes a triangle of its own.
-    void splitTriangle(std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t tip,
-                       std::uint32_t v) {
-        const auto half = static_cast<std::uint32_t>(mesh_.triangles.size());
-        Triangle other = mesh_.triangles[t];
-        std::replace(other.begin(), other.end(), a, v);
-        mesh_.triangles.push_back(other);
-        std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), b, v);
-        std::replace(around_[b].begin(), around_[b].end(), t, half);
-        around_[tip].push_back(half);
-        around_[v].push_back(t), around_[v].push_back(half);
-        touched_[t] = true, touched_.push_back(true);
+    double offDivided(const Candidate& c, const glm::dvec3& p) const {
+        return std::max({offAt(p), offBetween(p, at(c.a)), offBetween(p, at(c.b))});
     }
-
-    bool placeFor(const Candidate& c, const std::array<std::uint32_t, 2>& tips, bool even,
-                  glm::dvec3& place) const {
+    /// The nearest first.
+    std::vector<std::pair<double, glm::dvec3>> placesFor(const Candidate& c,
+                                                         const std::array<std::uint32_t, 2>& tips,
+                                                         bool even) const {
         const glm::dvec3 &a = at(c.a), &b = at(c.b), middle = 0.5 * (a + b);
-        const TapeView tape = tape_(middle);
-        double best = kGain * c.off;
-        bool found = false;
+        std::vector<std::pair<double, glm::dvec3>> found;
+        double reach = kFarthest * glm::distance(a, b);
         const auto attempt = [&](const glm::dvec3& p) {
-            if (glm::distance(p, middle) > kFarthest * glm::distance(a, b)) return;
-            const double off = std::max({std::abs(valueAt(tape, p)), offBetween(p, a), offBetween(p, b)});
-            if (off < best) best = off, place = p, found = true;
+            if (glm::distance(p, middle) > reach) return;
+            const double off = offDivided(c, p);
+            if (off < kGain * c.off) found.push_back({off, p});
         };
         if (even || !sharp_.at(middle)) {
-            attempt(onSurface(tape, middle));
-            if (found || even) return found;
+            attempt(onSurface(tape_(middle), middle));
+            if (!found.empty() || even) return found;
         }
+        const TapeView tape = tape_.whole();
+        reach = std::max(reach, kReach * step_);
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
         // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
@@ -320,12 +359,13 @@ class Refiner {
             for (int end = 0; end < count; ++end)
                 for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
             if (planes.empty()) continue;
-            const FeaturePoint point = featurePoint(tape, planes, middle, step_);
+            const FeaturePoint point = featurePoint(tape, planes, middle, 0.5 * kReach * step_);
             if (point.rank < 2) continue;
             sharp = true;
             attempt(point.place_world);
         }
         if (!sharp && c.off > limits_.smooth) attempt(onSurface(tape, middle));
+        std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
         return found;
     }
     static void addPlane(const TapeView& tape, const glm::dvec3& near, std::vector<TangentPlane>& planes) {
@@ -334,78 +374,20 @@ class Refiner {
         if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
     }
 
-    /// New vertices whose triangles meet others go back to where they change nothing, edges turn back.
-    /// False: some still do.
-    bool retreat() {
-        for (int n = 0; n < kRetreats; ++n) {
-            const auto pairs = meetingPairs(mesh_.position_world, mesh_.triangles, touched_);
-            if (pairs.empty()) return true;
-            shiftBack(pairs);
-            turnBack(pairs);
-            std::vector<std::uint32_t> back;
-            const std::uint32_t first = added_.empty() ? 0xffffffffu : added_.front().vertex;
-            for (const auto& [s, t] : pairs)
-                for (const std::uint32_t triangle : {s, t})
-                    for (const std::uint32_t v : mesh_.triangles[triangle])
-                        if (v >= first) back.push_back(v - first);
-            std::sort(back.begin(), back.end());
-            back.erase(std::unique(back.begin(), back.end()), back.end());
-            for (const std::uint32_t i : back) {
-                Added& added = added_[i];
-                glm::dvec3& place = mesh_.position_world[added.vertex];
-                ++stuck_[added.vertex];
-                place = ++added.retreats == 1 ? 0.5 * (place + added.middle) : added.middle;
-            }
-        }
-        return meetingPairs(mesh_.position_world, mesh_.triangles, touched_).empty();
-    }
-
-    void shiftBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
-        std::erase_if(shifted_, [&](const Shifted& s) {
-            const auto own = [&](std::uint32_t t) { return holds(mesh_.triangles[t], s.vertex); };
-            if (std::none_of(pairs.begin(), pairs.end(),
-                             [&](const auto& pair) { return own(pair.first) || own(pair.second); }))
-                return false;
-            mesh_.position_world[s.vertex] = s.from;
-            ++stuck_[s.vertex];
-            return true;
-        });
-    }
-    void turnBack(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
-        std::vector<std::uint32_t> meeting;
-        for (const auto& [s, t] : pairs) meeting.push_back(s), meeting.push_back(t);
-        std::sort(meeting.begin(), meeting.end());
-        const auto meets = [&](std::uint32_t t) {
-            return std::binary_search(meeting.begin(), meeting.end(), t);
-        };
-        std::erase_if(turned_, [&](const Diamond& d) {
-            if (!meets(d.sides[0]) && !meets(d.sides[1])) return false;
-            // Seen from the other diagonal: its ends are the tips, each side's third corner an end.
-            turn({d.tips[0], d.tips[1], d.sides, {d.a, d.b}});
-            ++stuck_[d.a], ++stuck_[d.b];
-            return true;
-        });
-    }
-
-    SurfaceMesh& mesh_;
+    MeshEdit edit_;
     const TapeAt& tape_;
     const double step_;
     const SharpCells& sharp_;
     const MeshLimits limits_;
-    std::vector<std::vector<std::uint32_t>> around_;
-    std::vector<int> tried_;     ///< how often vertices were asked to shift
-    std::vector<int> stuck_;     ///< how often vertices could not go where they belong
-    std::vector<bool> touched_;  ///< triangles of this round
-    std::vector<Added> added_;
-    std::vector<Diamond> turned_;
-    std::vector<Shifted> shifted_;
+    std::size_t added_ = 0;
+    std::vector<int> shifts_, draws_, stuck_;  ///< how often vertices were asked to go elsewhere
+    std::vector<std::uint32_t> touched_, neighbours_;
 };
 
 }  // namespace
 
 std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits) {
-    mesh.material.clear(), mesh.normal_world.clear();
     return Refiner(mesh, tape, step, sharp, limits).run();
 }
 

@@ -25,6 +25,8 @@ struct MeshCounts {
     std::uint64_t bricks = 0, cells = 0;  ///< that the surface passes
     std::uint64_t mended = 0;             ///< vertices moved, polygons divided: against intersections
     std::uint64_t collapsed = 0;          ///< vertices of flat parts left out
+    std::uint64_t turned = 0;             ///< corners in wedges thinner than cells
+    std::uint64_t debris = 0;             ///< closed surfaces left out that sampling had cut off
     std::uint64_t added = 0;              ///< vertices where edges were off the surface
 };
 

@@ -104,6 +104,7 @@ nlohmann::json recordOf(const Polygonized& made, const std::optional<MeshDistanc
     record["cells"] = made.counts.cells;
     record["mended"] = made.counts.mended;
     record["collapsed"] = made.counts.collapsed;
+    record["debris"] = made.counts.debris;
     record["added"] = made.counts.added;
     return record;
 }
