@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "pipeline/compare/judge_row.h"
+#include "pipeline/compare/mesh_reference.h"
+#include "pipeline/load_scene.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/version.h"
 
@@ -14,6 +16,31 @@ namespace {
 /// For everything but the image, MiB: the program's default.
 constexpr double kUsualMemory = 1024.0;
 constexpr double kBytesPerPixel = sizeof(glm::dvec4) + sizeof(float);
+
+struct Truth {
+    compare::ReferencePicture picture;
+    std::optional<compare::MeshReference> meshes;
+    compare::MeshReferenceMaker::Made of_meshes;
+};
+
+Truth truthOf(const ComparedPicture& picture, const std::string& reference,
+              const std::filesystem::path& scratch, Progress& progress) {
+    Truth truth;
+    compare::Row own;
+    const auto arguments = [&](const std::string& method) { return workerArguments(picture, method); };
+    const MethodSpec method = parseMethod(reference);
+    if (!isFieldFile(findScene(picture.scene)) || !wantsMesh(method)) {
+        truth.picture = compare::referenceOf({reference, arguments(reference)}, scratch, own, progress);
+        return truth;
+    }
+    compare::MeshReferenceMaker meshes(method, arguments, scratch);
+    truth.of_meshes = meshes.make(
+        {{"name", picture.filter}, {"radius", fmt::format("{}", picture.radius)}, {"sigma", nullptr}}, own,
+        progress);
+    truth.picture.picture = truth.of_meshes.finest;
+    truth.meshes = meshes.facts();
+    return truth;
+}
 
 }  // namespace
 
@@ -40,12 +67,14 @@ compare::Comparison compareOn(const ComparedPicture& picture, const std::string&
         contenders.push_back({method, workerArguments(picture, method)});
         found.rows.push_back(compare::rowOf(parseMethod(method), filter));
     }
-    compare::Row own;
-    const compare::ReferencePicture truth = compare::referenceOf(
-        {reference, workerArguments(picture, reference)}, schedule.scratch, own, progress);
+    const Truth truth = truthOf(picture, reference, schedule.scratch, progress);
+    found.mesh_reference = truth.meshes;
     compare::runByTurns(
         contenders, schedule, found.rows,
-        [&](std::size_t i, const ImageBuffer& image) { compare::judgeRow(found.rows[i], image, truth); },
+        [&](std::size_t i, const ImageBuffer& image) {
+            compare::judgeRow(found.rows[i], image, truth.picture);
+            if (truth.meshes) compare::judgeOnMesh(found.rows[i], image, *truth.meshes, truth.of_meshes);
+        },
         [](std::size_t) {}, progress);
     return found;
 }

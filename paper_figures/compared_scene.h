@@ -33,7 +33,8 @@ class Labelled : public Progress {
 /// Of compare-worker, with memory that holds the image.
 std::vector<std::string> workerArguments(const ComparedPicture& picture, const std::string& method);
 
-/// A row a method, by turns, judged against the reference, which is not timed. Rows that failed say why.
+/// A row a method, by turns, judged against the reference, which is not timed; that of an SDF scene by a
+/// triangle method is made of meshes (mesh_reference.h). Rows that failed say why.
 /// Throws Interrupted, InputError for no scene or method, WorkerFailure where the reference cannot be made.
 compare::Comparison compareOn(const ComparedPicture& picture, const std::string& reference,
                               const std::vector<std::string>& methods,

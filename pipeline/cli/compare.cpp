@@ -20,6 +20,8 @@
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/judge_row.h"
+#include "pipeline/compare/mesh_reference.h"
+#include "pipeline/compare/mesh_reference_text.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/schedule.h"
 #include "pipeline/compare/svg_pdf.h"
@@ -88,7 +90,18 @@ class Study {
             comparison_.rows.push_back(compare::rowOf(parseMethod(method), readFilter(filter)));
             contenders_.push_back({method, flagsOf(method, filter)});
         }
+        const MethodSpec reference = parseMethod(arguments.reference);
+        if (isFieldFile(findScene(arguments.picture.scene)) && wantsMesh(reference))
+            meshes_.emplace(
+                reference,
+                [this](const std::string& method) {
+                    return flagsOf(method, filterFor(arguments_, arguments_.reference));
+                },
+                folder_.path());
     }
+
+    /// Errors, and what the reference's own error is beside them.
+    std::string summary() const { return compare::meshReferenceWords(comparison_); }
 
     void run() {
         if (arguments_.resume) resume();
@@ -106,7 +119,20 @@ class Study {
     struct Reference {
         compare::ReferencePicture made;
         std::string png;
+        compare::MadeOfMeshes of_meshes;  ///< where it is
     };
+
+    void makeOfMeshes(const FilterArguments& filter, Reference& reference, Row& row) {
+        const auto typed = [](const std::optional<std::string>& text) {
+            return text ? nlohmann::json(*text) : nlohmann::json();
+        };
+        reference.of_meshes = meshes_->make(
+            {{"name", filter.name}, {"radius", typed(filter.radius)}, {"sigma", typed(filter.sigma)}}, row,
+            progress_);
+        for (const std::string& note : row.notes) spdlog::warn("{}", note);
+        reference.made.picture = reference.of_meshes.finest;
+        comparison_.mesh_reference = meshes_->facts();
+    }
 
     std::vector<std::string> flagsOf(const std::string& method, const FilterArguments& filter) const {
         return workerFlags(arguments_.picture, filter, arguments_.making, method);
@@ -124,7 +150,11 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_);
+        if (meshes_)
+            makeOfMeshes(filter, reference, row);
+        else
+            reference.made =
+                compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_);
         size_ = row.size;
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
         writePicture(reference.made.picture, fileName("reference-" + filter.name), row.device);
@@ -143,8 +173,10 @@ class Study {
     }
 
     void judge(Row& row, const ImageBuffer& picture) {
-        const compare::ReferencePicture& reference = makeReference(filterFor(arguments_, row.method)).made;
+        const Reference& made = makeReference(filterFor(arguments_, row.method));
+        const compare::ReferencePicture& reference = made.made;
         const ImageBuffer& truth = reference.picture;
+        if (meshes_) compare::judgeOnMesh(row, picture, meshes_->facts(), made.of_meshes);
         const std::string name = fileName(row.method);
         compare::judgeRow(row, picture, reference);
         writePicture(picture, name, row.device);
@@ -200,6 +232,7 @@ class Study {
     Comparison comparison_;
     std::vector<Contender> contenders_;
     std::map<std::string, Reference> references_;
+    std::optional<compare::MeshReferenceMaker> meshes_;  ///< the reference is a mesh's
     glm::ivec2 size_{0};
 };
 
@@ -208,7 +241,9 @@ void runCompare(const CompareArguments& arguments) {
     const ResultFolder folder(arguments.folder);
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     try {
-        Study(arguments, folder, progress).run();
+        Study study(arguments, folder, progress);
+        study.run();
+        if (!arguments.quiet) fmt::print("{}", study.summary());
     } catch (const compare::WorkerFailure& failure) {
         throwAsOurs(failure, "compare");
     }

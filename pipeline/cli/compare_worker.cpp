@@ -1,6 +1,7 @@
 // The other end of compare/worker_process: makes one method's pictures, as often as it is asked.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,8 @@
 #include "pipeline/cli/statistics.h"
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/error.h"
+#include "pipeline/field_mesh.h"
+#include "pipeline/judge/silhouette.h"
 #include "pipeline/methods/edge_classes.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/progress_bar.h"
@@ -47,6 +50,8 @@ class Worker {
         if (what == "open") return open();
         if (what == "run") return run();
         if (what == "edges") return edges();
+        if (what == "filter") return refilter(request.at("filter"));
+        if (what == "silhouette") return silhouette();
         compare::writeRaw(request.at("path").get<std::string>(), made_.image);
         return Json::object();
     }
@@ -56,15 +61,16 @@ class Worker {
         picture_ = loadPicture(arguments_.picture, progress_);
         takeBackground(arguments_.making, picture_->scene, options_);
         if (arguments_.warns) warnOfIgnored(picture_->scene);
+        if (picture_->scene.field && wantsMesh(method_)) mesh_ = meshForFilm(method_, input());
         return Json::object();
     }
 
     Json run() {
         made_ = {};
         Stopwatch watch;
-        made_ = runMethod(method_,
-                          {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_});
+        made_ = mesh_ ? runOnMesh(method_, *mesh_, input()) : runMethod(method_, input());
         const double seconds = watch.lap() - made_.setup_seconds;
+        if (mesh_) addMeshReport(mesh_->report, made_);
         throwIfInterrupted();
         Json reply = Json::parse(statisticsJson(made_));
         reply["seconds"] = seconds;
@@ -72,14 +78,39 @@ class Worker {
         return reply;
     }
 
+    Json refilter(const Json& filter) {
+        const auto typed = [&](const char* key) {
+            const Json& value = filter.at(key);
+            return value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
+        };
+        filter_ = readFilter({filter.at("name"), typed("radius"), typed("sigma")});
+        return Json::object();
+    }
+
+    /// Of the field and of its mesh.
+    Json silhouette() {
+        const judge::SilhouetteDistance distance = judge::silhouetteDistance(
+            judge::fieldMask(input()),
+            judge::triangleMask(mesh_.value().scene, picture_->camera, picture_->film), picture_->film.crop);
+        const auto px = [](double x) { return std::min(x, judge::kFarthestContourPx); };
+        return {{"there", px(distance.first_to_second_px)},
+                {"back", px(distance.second_to_first_px)},
+                {"mean", px(distance.mean_px)}};
+    }
+
     /// A digit a pixel.
     Json edges() {
         std::string digits;
         for (const EdgeClass edge_class :
-             edgeClasses({picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_}))
+             edgeClasses({mesh_ ? mesh_->scene : picture_->scene, picture_->camera, picture_->film, filter_,
+                          options_, progress_}))
             digits += static_cast<char>('0' + static_cast<int>(edge_class));
         throwIfInterrupted();
         return {{"classes", digits}};
+    }
+
+    MethodInput input() {
+        return {picture_->scene, picture_->camera, picture_->film, filter_, options_, progress_};
     }
 
     const WorkerArguments& arguments_;
@@ -89,6 +120,7 @@ class Worker {
     ThreadLimit threads_;
     ProgressBar progress_;
     std::optional<Picture> picture_;
+    std::optional<FieldMesh> mesh_;  ///< made once: what it takes is set-up of every run
     MethodResult made_;
 };
 
