@@ -33,9 +33,9 @@ Effort effortOf(bool quick) {
     if (quick)
         return {64,
                 1,
-                {"sphere-minus-box"},
+                {"menger-3"},
                 {"nsaa", "ssaa:2", "ssaa:4", "ctss", "ctss-x", "lottes", "rt:16", "none"}};
-    return {256, 3, {"sphere-minus-box", "gyroid", "spheres-50", "menger-3"}, kMethods};
+    return {128, 3, {"sphere-minus-box", "gyroid", "spheres-50", "menger-3"}, kMethods};
 }
 
 std::string textOf(const std::filesystem::path& path) {

@@ -41,17 +41,19 @@ struct MeshLevel {
     double error_px = 0.0;  ///< asked for
     MeshReport mesh;
     std::optional<PictureDistance> moved;  ///< none: the first
+    std::optional<PictureDistance> left;   ///< the picture's own error, by how it moved
 };
 
-/// What is known of a reference that is made of a mesh of an SDF scene: each level's mesh is half as far off
-/// as the last one's, until the picture moves by `stated` at most. The picture's own error is then no more
-/// than it moved by, as far as it falls with the mesh's (Richardson, first order).
+/// What is known of a reference that is made of a mesh of an SDF scene: each level's mesh is asked to be half
+/// as far off as the last one's, until what is left of the picture's error is `stated` at most. Outlines move
+/// with the mesh, and pixels with outlines, to first order: of meshes that are measured a and then b < a off
+/// the surface, moving the picture by m, the second one's is off by m b / (a - b) (Richardson).
 struct MeshReference {
     double stated = 0.0;  ///< RMSE
     std::vector<MeshLevel> levels;
     /// Of the first level's mesh and of the field, in px.
     double silhouette_there_px = 0.0, silhouette_back_px = 0.0, silhouette_mean_px = 0.0;
-    bool reached() const { return levels.back().moved && levels.back().moved->rmse <= stated; }
+    bool reached() const { return levels.back().left && levels.back().left->rmse <= stated; }
 };
 
 struct Row {

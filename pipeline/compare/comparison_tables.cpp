@@ -51,7 +51,8 @@ Json meshReferenceJson(const MeshReference& reference) {
     for (const MeshLevel& level : reference.levels)
         levels.push_back({{"error_px", level.error_px},
                           {"mesh", meshJson(level.mesh)},
-                          {"moved", distanceJson(level.moved)}});
+                          {"moved", distanceJson(level.moved)},
+                          {"own_error", distanceJson(level.left)}});
     return {{"stated", reference.stated},
             {"reached", reference.reached()},
             {"levels", levels},

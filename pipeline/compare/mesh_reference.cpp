@@ -1,7 +1,8 @@
 #include "pipeline/compare/mesh_reference.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
+
+#include <algorithm>
 
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/compare/scratch_file.h"
@@ -12,6 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Of what a picture moved by, where its mesh is hardly nearer than the last one.
+constexpr double kMostFactor = 100.0;
 constexpr std::chrono::hours kWhatItTakes{24 * 365};
 
 }  // namespace
@@ -19,6 +22,14 @@ constexpr std::chrono::hours kWhatItTakes{24 * 365};
 PictureDistance distanceBetween(const ImageBuffer& picture, const ImageBuffer& reference) {
     const judge::ErrorMetrics metrics = judge::compareImages(picture, reference);
     return {metrics.rmse, metrics.max, metrics.edge_rmse};
+}
+
+PictureDistance leftOf(const PictureDistance& moved, double first_px, double second_px) {
+    if (second_px == 0.0) return {0.0, 0.0, {}};
+    const double factor = std::min(second_px / std::max(first_px - second_px, 0.0), kMostFactor);
+    PictureDistance left{factor * moved.rmse, factor * moved.max, {}};
+    if (moved.edge_rmse) left.edge_rmse = factor * *moved.edge_rmse;
+    return left;
 }
 
 void judgeOnMesh(Row& row, const ImageBuffer& picture, const MeshReference& reference,
@@ -39,7 +50,7 @@ std::string onMeshWithin(double error_px, const MethodSpec& method) {
 MeshReferenceMaker::MeshReferenceMaker(const MethodSpec& method, ArgumentsOf arguments,
                                        std::filesystem::path scratch)
     : method_(method), arguments_(std::move(arguments)), scratch_(std::move(scratch)) {
-    facts_.stated = kStatedMove;
+    facts_.stated = kStatedError;
 }
 
 /// False where the mesher does not get that far.
@@ -86,11 +97,12 @@ MeshReferenceMaker::Made MeshReferenceMaker::make(const Json& filter, Row& row, 
     for (std::size_t level = 1; level < kMostMeshes; ++level) {
         if (decided_ ? level >= workers_.size() : !addLevel(row, progress)) break;
         ImageBuffer finer = pictureOf(level, filter, row, progress);
-        made.own_error = distanceBetween(made.finest, finer);
+        const PictureDistance moved = distanceBetween(made.finest, finer);
+        made.own_error = leftOf(moved, facts_.levels[level - 1].mesh.errorPx(), facts_.levels[level].mesh.errorPx());
         made.finest = std::move(finer);
         if (decided_) continue;
-        facts_.levels[level].moved = made.own_error;
-        if (made.own_error.rmse <= kStatedMove) break;
+        facts_.levels[level].moved = moved, facts_.levels[level].left = made.own_error;
+        if (facts_.reached()) break;
     }
     decided_ = true;
     return made;

@@ -11,17 +11,20 @@
 
 namespace edgewise::compare {
 
-/// RMSE over linear RGB that the reference may move by when its mesh's error halves, and how many meshes
-/// are made at most.
-inline constexpr double kStatedMove = 3e-4;
+/// RMSE over linear RGB that the reference may be off by, and how many meshes are made for that at most.
+inline constexpr double kStatedError = 1e-3;
 inline constexpr int kMostMeshes = 4;
 
 /// By judge::compareImages(); the pictures have one box.
 PictureDistance distanceBetween(const ImageBuffer& picture, const ImageBuffer& reference);
 
+/// MeshLevel::left of the second, where the first and it are that far off the surface. Large where the second
+/// is no nearer.
+PictureDistance leftOf(const PictureDistance& moved, double first_px, double second_px);
+
 struct MadeOfMeshes {
     ImageBuffer first, finest;  ///< of the coarsest and of the finest mesh
-    PictureDistance own_error;  ///< by how much the last step moved it
+    PictureDistance own_error;  ///< MeshLevel::left of the finest
 };
 /// Fills a row's reference_error and, where its mesh is the one that the reference began with, antialiasing.
 void judgeOnMesh(Row& row, const ImageBuffer& picture, const MeshReference& reference,

@@ -17,12 +17,12 @@ std::string headWords(const Comparison& c) {
     return fmt::format(
         "The reference {} is made of {} meshes of the scene, the last of {} triangles within {:.3g} px of "
         "the "
-        "surface. Halving the mesh's error moved it by RMSE {}; {:.0e} was asked for{}. Silhouettes of the "
+        "surface. The last one moved it by RMSE {}, which leaves it {} off; {:.0e} was asked for{}. Silhouettes of the "
         "field and of the first mesh, within {:.3g} px of the surface, are {:.3f} and {:.3f} px apart at "
         "most, "
         "{:.3f} px on average.",
         c.reference, reference.levels.size(), last.mesh.triangles, last.mesh.errorPx(),
-        shown(last.moved, "nothing: there is one alone"), reference.stated,
+        shown(last.moved, "nothing, being alone"), shown(last.left, "nobody knows how far"), reference.stated,
         reference.reached() ? "" : ", which is not reached", reference.levels.front().mesh.errorPx(),
         reference.silhouette_there_px, reference.silhouette_back_px, reference.silhouette_mean_px);
 }
@@ -57,9 +57,8 @@ std::string meshReferenceHtml(const Comparison& c) {
         escapedHtml(headWords(c)));
     for (const Row& row : c.rows) out += htmlRow(row);
     return out +
-           "</tbody></table><p>The reference's own: by how much the last halving of its mesh's error moved "
-           "it, "
-           "by the row's filter; differences of that size between rows mean nothing. Antialiasing alone: of "
+           "</tbody></table><p>The reference's own: what is left of its error, by how much the last mesh moved it, by the row's "
+           "filter; differences of that size between rows mean nothing. Antialiasing alone: of "
            "methods on the reference's first mesh, against exact antialiasing of that mesh; the rest of "
            "their "
            "error is the mesh's.</p>";

@@ -57,7 +57,7 @@ TEST(SharedGeometry, PageAndTableHaveEveryRow) {
     scene.rows[4].mesh.emplace().triangles = 77;
     compare::MeshReference& reference = scene.mesh_reference.emplace();
     reference.levels.resize(2);
-    reference.levels[1].moved = compare::PictureDistance{3e-4, 1e-3, {}};
+    reference.levels[1].left = compare::PictureDistance{3e-4, 1e-3, {}};
     found.scenes = {scene};
     const std::string csv = sharedGeometryCsv(found);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
