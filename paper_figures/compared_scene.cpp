@@ -33,7 +33,7 @@ Truth truthOf(const ComparedPicture& picture, const std::string& reference,
         truth.picture = compare::referenceOf({reference, arguments(reference)}, scratch, own, progress);
         return truth;
     }
-    compare::MeshReferenceMaker meshes(method, arguments, scratch);
+    compare::MeshReferenceMaker meshes(method, arguments, scratch, picture.most_meshes);
     truth.of_meshes = meshes.make(
         {{"name", picture.filter}, {"radius", fmt::format("{}", picture.radius)}, {"sigma", nullptr}}, own,
         progress);

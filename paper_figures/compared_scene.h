@@ -15,6 +15,7 @@ struct ComparedPicture {
     int width = 0, height = 0;
     std::string filter = "box";
     double radius = 0.5;
+    std::size_t most_meshes = 4;  ///< of a reference that is made of meshes
 };
 
 /// Of the runs inside: their stages have the name of what is measured.

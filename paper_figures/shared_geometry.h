@@ -20,8 +20,8 @@ struct SharedGeometry {
     std::vector<std::string> notes;  ///< what could not be measured, one sentence each
 };
 
-/// An .sdf.json without its half-spaces and shadows: what is left has edges of geometry alone. Throws
-/// InputError for what is no such scene.
+/// An .sdf.json without its half-spaces and shadows: what is left has edges of geometry alone. Menger's
+/// sponge is turned back to the axes, where its mesh is exact. Throws InputError for what is no such scene.
 std::string bareScene(const std::string& json, const std::string& source);
 
 /// How many samples a pixel ssaa needs for a method's error, by log-log interpolation between its rows; none

@@ -57,8 +57,8 @@ std::string scenesTable(const SharedGeometry& found) {
                 number(reference.silhouette_there_px, "{:.3f}") +
                 number(reference.silhouette_back_px, "{:.3f}") +
                 number(static_cast<double>(last.mesh.triangles), "{:.0f}") +
-                number(last.mesh.errorPx(), "{:.3f}") +
-                number(last.left ? last.left->rmse : 0.0, "{:.2e}") + "</tr>\n";
+                number(last.mesh.errorPx(), "{:.3f}") + number(last.left ? last.left->rmse : 0.0, "{:.2e}") +
+                "</tr>\n";
     }
     return table(
         "<th>scene</th><th>triangles of rows</th><th>off the surface, px</th><th>meshing, "
@@ -105,11 +105,13 @@ FigureWords wordsOf(const SharedGeometry& found) {
         "shared-geometry",
         "Both families on one geometry",
         "The scenes of that name without their ground and without shadows, so that every edge is one of "
-        "geometry. nsaa, rt and mesh+M make their pictures of a mesh of the field, by dual contouring, "
+        "geometry; the sponge is turned back to the axes, where its mesh is exact. nsaa, rt and mesh+M make "
+        "their pictures of a mesh of the field, by dual contouring, "
         "within "
         "a fifth of a pixel of it where it is closest to the eye, and shade it by the field's own materials; "
         "the others trace the field. The reference is nsaa on ever finer meshes, until what is left "
-        "of its own error, by how much the picture moves, is small: the end of what can be told. Meshing is set-up, "
+        "of its own error, by how much the picture moves, is small: the end of what can be told. Meshing is "
+        "set-up, "
         "not time. All filters are a pixel's box.",
         {{"reference", found.reference + " on meshes of half the error each"},
          {"size", row ? fmt::format("{} x {}", row->size.x, row->size.y) : "none"},
@@ -133,7 +135,9 @@ void addSharedClaims(const SharedGeometry& found, std::vector<FigureClaim>& clai
                                                 ? fmt::format("{:.1e}", reference->levels.back().left->rmse)
                                                 : "";
                                  }),
-                      "", "the mesh of a field is not the field: what is left of the error by how finer meshes move the picture"});
+                      "",
+                      "the mesh of a field is not the field: what is left of the error by how finer meshes "
+                      "move the picture"});
     claims.push_back(
         {"CTSS, section 1", "samples a pixel of SSAA with the same error as CTSS", "4 to 8",
          overScenes(found, [](const Comparison& s) { return samplesOf(s, "ctss"); }), "",

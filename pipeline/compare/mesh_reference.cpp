@@ -48,8 +48,11 @@ std::string onMeshWithin(double error_px, const MethodSpec& method) {
 }
 
 MeshReferenceMaker::MeshReferenceMaker(const MethodSpec& method, ArgumentsOf arguments,
-                                       std::filesystem::path scratch)
-    : method_(method), arguments_(std::move(arguments)), scratch_(std::move(scratch)) {
+                                       std::filesystem::path scratch, std::size_t most_meshes)
+    : method_(method),
+      arguments_(std::move(arguments)),
+      scratch_(std::move(scratch)),
+      most_meshes_(most_meshes) {
     facts_.stated = kStatedError;
 }
 
@@ -94,11 +97,12 @@ MeshReferenceMaker::Made MeshReferenceMaker::make(const Json& filter, Row& row, 
     if (!decided_) addLevel(row, progress);
     made.first = made.finest = pictureOf(0, filter, row, progress);
     if (!decided_) measureSilhouettes(progress);
-    for (std::size_t level = 1; level < kMostMeshes; ++level) {
+    for (std::size_t level = 1; level < most_meshes_; ++level) {
         if (decided_ ? level >= workers_.size() : !addLevel(row, progress)) break;
         ImageBuffer finer = pictureOf(level, filter, row, progress);
         const PictureDistance moved = distanceBetween(made.finest, finer);
-        made.own_error = leftOf(moved, facts_.levels[level - 1].mesh.errorPx(), facts_.levels[level].mesh.errorPx());
+        made.own_error =
+            leftOf(moved, facts_.levels[level - 1].mesh.errorPx(), facts_.levels[level].mesh.errorPx());
         made.finest = std::move(finer);
         if (decided_) continue;
         facts_.levels[level].moved = moved, facts_.levels[level].left = made.own_error;

@@ -13,7 +13,7 @@ namespace edgewise::compare {
 
 /// RMSE over linear RGB that the reference may be off by, and how many meshes are made for that at most.
 inline constexpr double kStatedError = 1e-3;
-inline constexpr int kMostMeshes = 4;
+inline constexpr std::size_t kMostMeshes = 4;
 
 /// By judge::compareImages(); the pictures have one box.
 PictureDistance distanceBetween(const ImageBuffer& picture, const ImageBuffer& reference);
@@ -38,7 +38,8 @@ class MeshReferenceMaker {
     /// What a worker is started with to make a method's pictures.
     using ArgumentsOf = std::function<std::vector<std::string>(const std::string& method)>;
 
-    MeshReferenceMaker(const MethodSpec& method, ArgumentsOf arguments, std::filesystem::path scratch);
+    MeshReferenceMaker(const MethodSpec& method, ArgumentsOf arguments, std::filesystem::path scratch,
+                       std::size_t most_meshes = kMostMeshes);
 
     using Made = MadeOfMeshes;
     /// `filter`: {name, radius, sigma} as typed. The first call decides how many meshes there are; `row`
@@ -56,6 +57,7 @@ class MeshReferenceMaker {
     const MethodSpec method_;
     const ArgumentsOf arguments_;
     const std::filesystem::path scratch_;
+    const std::size_t most_meshes_;
     std::vector<WorkerProcess> workers_;  ///< by level
     MeshReference facts_;
     bool decided_ = false;

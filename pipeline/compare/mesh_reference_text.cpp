@@ -17,7 +17,8 @@ std::string headWords(const Comparison& c) {
     return fmt::format(
         "The reference {} is made of {} meshes of the scene, the last of {} triangles within {:.3g} px of "
         "the "
-        "surface. The last one moved it by RMSE {}, which leaves it {} off; {:.0e} was asked for{}. Silhouettes of the "
+        "surface. The last one moved it by RMSE {}, which leaves it {} off; {:.0e} was asked for{}. "
+        "Silhouettes of the "
         "field and of the first mesh, within {:.3g} px of the surface, are {:.3f} and {:.3f} px apart at "
         "most, "
         "{:.3f} px on average.",
@@ -57,7 +58,8 @@ std::string meshReferenceHtml(const Comparison& c) {
         escapedHtml(headWords(c)));
     for (const Row& row : c.rows) out += htmlRow(row);
     return out +
-           "</tbody></table><p>The reference's own: what is left of its error, by how much the last mesh moved it, by the row's "
+           "</tbody></table><p>The reference's own: what is left of its error, by how much the last mesh "
+           "moved it, by the row's "
            "filter; differences of that size between rows mean nothing. Antialiasing alone: of "
            "methods on the reference's first mesh, against exact antialiasing of that mesh; the rest of "
            "their "

@@ -21,7 +21,9 @@ TEST(MeshReference, WhatIsLeftIsTheErrorWhereErrorsFallWithTheMeshs) {
         const PictureDistance left = leftOf(moved, first, second);
         EXPECT_NEAR(left.rmse, 0.3 * second, 1e-15);
         EXPECT_NEAR(left.max, 0.9 * second, 1e-15);
-        if (second > 0.0) EXPECT_NEAR(*left.edge_rmse, 0.6 * second, 1e-15);
+        if (second > 0.0) {
+            EXPECT_NEAR(*left.edge_rmse, 0.6 * second, 1e-15);
+        }
     }
     EXPECT_GT(leftOf({1e-4, 1e-4, {}}, 0.1, 0.1).rmse, 1e-3);  // no nearer: nothing is known
     EXPECT_EQ(leftOf({0.0, 0.0, {}}, 0.1, 0.1).rmse, 0.0);

@@ -69,8 +69,8 @@ struct BallOutline {
         return least;
     }
     static double slope2(const glm::dvec2& q) { return glm::dot(q, q); }
-    /// How far beyond the outline a ray may pass and still hit: within an eighth of half a pixel at its length
-    /// t = w sqrt(1 + r^2), which is seen larger by as much again.
+    /// How far beyond the outline a ray may pass and still hit: within an eighth of half a pixel at its
+    /// length t = w sqrt(1 + r^2), which is seen larger by as much again.
     double threshold(const glm::dvec2& p_px) const {
         return 0.125 * 0.5 * (1.0 + slope2((p_px - middle_px) / scale_px));
     }
@@ -180,15 +180,17 @@ TEST(FieldMesh, IsLitAsTheFieldIs) {
             const double worst = difference(traced.image, {x, y}, mesh.image, {x, y});
             double around = 0.0;
             for (int n = 0; n < 9; ++n)
-                around = std::max(around, difference(traced.image, {x, y}, traced.image,
-                                                     {x + n % 3 - 1, y + n / 3 - 1}));
+                around = std::max(
+                    around, difference(traced.image, {x, y}, traced.image, {x + n % 3 - 1, y + n / 3 - 1}));
             off += worst > 0.02;
             beyond = std::max(beyond, worst - around);
         }
-    std::printf("%zu of 4524 pixels differ by more than 0.02; by %.2g more than from neighbours\n", off, beyond);
+    std::printf("%zu of 4524 pixels differ by more than 0.02; by %.2g more than from neighbours\n", off,
+                beyond);
     // Pixels whose centre is within a quarter of a pixel of an edge: of contours, creases, shadows, squares.
     EXPECT_LT(off, 4524u / 20);
-    EXPECT_LT(beyond, 0.004);  // what moves by a quarter of a pixel stays between neighbours; normals interpolated
+    EXPECT_LT(beyond,
+              0.004);  // what moves by a quarter of a pixel stays between neighbours; normals interpolated
     EXPECT_EQ(mesh.counts.at("triangles"), mesh.mesh->triangles + 190u);  // the ground's disc has 192 corners
 }
 
