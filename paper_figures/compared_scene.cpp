@@ -7,6 +7,7 @@
 #include "pipeline/compare/judge_row.h"
 #include "pipeline/compare/mesh_reference.h"
 #include "pipeline/load_scene.h"
+#include "pipeline/mesh_store.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/version.h"
 
@@ -23,11 +24,21 @@ struct Truth {
     compare::MeshReferenceMaker::Made of_meshes;
 };
 
-Truth truthOf(const ComparedPicture& picture, const std::string& reference,
+/// Meshes are made once for all workers.
+std::vector<std::string> argumentsWith(const MeshFolder& meshes, const ComparedPicture& picture,
+                                       const std::string& method) {
+    std::vector<std::string> arguments = workerArguments(picture, method);
+    arguments.push_back("--meshes=" + meshes.path().string());
+    return arguments;
+}
+
+Truth truthOf(const ComparedPicture& picture, const std::string& reference, const MeshFolder& meshes_at,
               const std::filesystem::path& scratch, Progress& progress) {
     Truth truth;
     compare::Row own;
-    const auto arguments = [&](const std::string& method) { return workerArguments(picture, method); };
+    const auto arguments = [&](const std::string& method) {
+        return argumentsWith(meshes_at, picture, method);
+    };
     const MethodSpec method = parseMethod(reference);
     if (!isFieldFile(findScene(picture.scene)) || !wantsMesh(method)) {
         truth.picture = compare::referenceOf({reference, arguments(reference)}, scratch, own, progress);
@@ -62,12 +73,13 @@ compare::Comparison compareOn(const ComparedPicture& picture, const std::string&
     findScene(picture.scene);
     const Prefilter filter = makePrefilter(picture.filter, picture.radius, {});
     compare::Comparison found{picture.scene, reference, "", version(), compare::thisMachine(), {}};
+    const MeshFolder meshes_at(schedule.scratch / ".meshes");
     std::vector<compare::Contender> contenders;
     for (const std::string& method : methods) {
-        contenders.push_back({method, workerArguments(picture, method)});
+        contenders.push_back({method, argumentsWith(meshes_at, picture, method)});
         found.rows.push_back(compare::rowOf(parseMethod(method), filter));
     }
-    const Truth truth = truthOf(picture, reference, schedule.scratch, progress);
+    const Truth truth = truthOf(picture, reference, meshes_at, schedule.scratch, progress);
     found.mesh_reference = truth.meshes;
     compare::runByTurns(
         contenders, schedule, found.rows,

@@ -66,11 +66,18 @@ class FilmMesher {
         parts_ = partsOf(whole_);
     }
 
-    FieldMesh make() {
+    FieldMesh make(const MeshStore* store) {
         Stopwatch watch;
-        if (!parts_.rest.tree.empty()) meshWithin();
+        const std::optional<FilmPolygons> kept = store ? store->find(choice_) : std::nullopt;
+        if (kept)
+            made_ = *kept;
+        else if (!parts_.rest.tree.empty())
+            meshWithin();
+        if (!kept) made_.report.seconds = watch.lap();
+        if (!kept && store) store->keep(choice_, made_);
+        out_.report = made_.report;
         build();
-        out_.report.seconds = watch.lap();
+        out_.report.seconds += watch.lap();
         return std::move(out_);
     }
 
@@ -93,14 +100,13 @@ class FilmMesher {
         meshFor(pixel, scene);
         const double closest = closestOfMesh();
         if (std::isfinite(closest) && closest * kScoutSlack < pixel) meshFor(pixel = closest, scene);
-        MeshReport& report = out_.report;
+        MeshReport& report = made_.report;
         report.pixel_world = std::isfinite(closest) ? std::min(closest, pixel) : pixel;
         report.triangles = made_.mesh.triangles.size();
-        report.cell_world = made_.lattice.step;
     }
 
     void meshFor(double pixel, const Scene& scene) {
-        MeshReport& report = out_.report;
+        MeshReport& report = made_.report;
         PolygonizeOptions options;
         options.mesher = parseMesher(choice_.mesher);
         options.resolution = kFirstResolution;
@@ -109,7 +115,8 @@ class FilmMesher {
         in_.progress.stage("polygonize", 0);
         MeasuredMesh measured = polygonizeWithin(report.asked_world, method_, scene, options,
                                                  [this] { checkCancelled(in_.progress); });
-        made_ = std::move(measured.made);
+        made_.mesh = std::move(measured.made.mesh);
+        report.cell_world = measured.made.lattice.step;
         report.mesh_to_surface = measured.distance.mesh_to_surface;
         report.surface_to_mesh = measured.distance.surface_to_mesh;
     }
@@ -246,19 +253,19 @@ class FilmMesher {
     glm::dvec3 eye_world_;
     sdf::FieldScene whole_;
     FieldParts parts_;
-    Polygonized made_;
+    FilmPolygons made_;
     std::shared_ptr<FieldSurface> surface_;
     FieldMesh out_;
 };
 
 }  // namespace
 
-FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input) {
+FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store) {
     const std::string method = fmt::format("method '{}'", spec.typed);
     if (input.scene.field->tree.empty() && input.scene.field->glsl)
         throw InputError(method, fmt::format("needs triangles, and '{}' is GLSL, which is not polygonized",
                                              input.scene.source));
-    return FilmMesher(method, spec.mesh.value_or(MeshChoice{}), input).make();
+    return FilmMesher(method, spec.mesh.value_or(MeshChoice{}), input).make(store);
 }
 
 std::string wordsOf(const MeshReport& report) {

@@ -1,8 +1,8 @@
 // An SDF scene as triangles for one film: what triangle methods make their picture of.
 #pragma once
 
+#include "pipeline/mesh_store.h"
 #include "pipeline/methods/method.h"
-#include "pipeline/polygonize.h"
 
 namespace edgewise {
 
@@ -16,7 +16,8 @@ struct FieldMesh {
 
 /// Throws InputError naming the method: the scene is raw GLSL, or has other unbounded parts; as polygonize()
 /// does.
-FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input);
+/// `store`: of the input's scene, camera and film.
+FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store = nullptr);
 
 /// As the method's note says it.
 std::string wordsOf(const MeshReport& report);

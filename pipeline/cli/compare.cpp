@@ -28,6 +28,7 @@
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/load_scene.h"
+#include "pipeline/mesh_store.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/version.h"
@@ -78,7 +79,10 @@ void checkMethods(const CompareArguments& arguments) {
 class Study {
   public:
     Study(const CompareArguments& arguments, const ResultFolder& folder, Progress& progress)
-        : arguments_(arguments), folder_(folder), progress_(progress) {
+        : arguments_(arguments),
+          folder_(folder),
+          progress_(progress),
+          mesh_folder_(folder.path() / ".meshes") {
         options_.runs = readRuns("--runs", arguments.runs);
         if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
@@ -135,7 +139,9 @@ class Study {
     }
 
     std::vector<std::string> flagsOf(const std::string& method, const FilterArguments& filter) const {
-        return workerFlags(arguments_.picture, filter, arguments_.making, method);
+        std::vector<std::string> flags = workerFlags(arguments_.picture, filter, arguments_.making, method);
+        flags.push_back("--meshes=" + mesh_folder_.path().string());
+        return flags;
     }
 
     static std::string keyOf(const FilterArguments& filter) {
@@ -228,6 +234,7 @@ class Study {
     const CompareArguments& arguments_;
     const ResultFolder& folder_;
     Progress& progress_;
+    const MeshFolder mesh_folder_;  ///< meshes are made once for all workers
     compare::ScheduleOptions options_;
     Comparison comparison_;
     std::vector<Contender> contenders_;

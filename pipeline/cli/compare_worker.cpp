@@ -32,6 +32,7 @@ struct WorkerArguments {
     FilterArguments filter;
     MethodArguments making;
     std::string method;
+    std::string meshes;  ///< a MeshStore's folder; empty: none
     bool warns = false;
 };
 
@@ -61,8 +62,14 @@ class Worker {
         picture_ = loadPicture(arguments_.picture, progress_);
         takeBackground(arguments_.making, picture_->scene, options_);
         if (arguments_.warns) warnOfIgnored(picture_->scene);
-        if (picture_->scene.field && wantsMesh(method_)) mesh_ = meshForFilm(method_, input());
+        if (picture_->scene.field && wantsMesh(method_)) mesh_ = makeMesh();
         return Json::object();
+    }
+
+    FieldMesh makeMesh() {
+        if (arguments_.meshes.empty()) return meshForFilm(method_, input());
+        const MeshStore store(arguments_.meshes);
+        return meshForFilm(method_, input(), &store);
     }
 
     Json run() {
@@ -158,6 +165,7 @@ void addCompareWorker(CLI::App& program) {
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
     command->add_option("--method", arguments->method)->required();
+    command->add_option("--meshes", arguments->meshes);
     command->add_flag("--warn", arguments->warns);
     command->callback([arguments] { serve(*arguments); });
 }

@@ -2,8 +2,10 @@
 #include "pipeline/field_mesh.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/constants.hpp>
 
 #include "pipeline/error.h"
@@ -204,6 +206,27 @@ TEST(FieldMesh, DependsOnTheFilmAndNotOnItsCrop) {
     for (int y = 8; y < 30; ++y)
         for (int x = 20; x < 31; ++x)
             EXPECT_EQ(whole.image.rgba[whole.image.index(x, y)], part.image.rgba[part.image.index(x, y)]);
+}
+
+TEST(FieldMesh, AStoreGivesTheSameMeshAgain) {
+    FieldPicture picture = looking(48, 48);
+    picture.field->tree.root = picture.field->tree.add(Kind::kTorus, {0.7, 0.25});
+    const MeshFolder folder(std::filesystem::temp_directory_path() /
+                            ("edgewise_meshes_" + std::to_string(::getpid())));
+    const MeshStore store(folder.path());
+    const MethodSpec nsaa = parseMethod("nsaa");
+    EXPECT_FALSE(store.find({}));
+    const FieldMesh first = meshForFilm(nsaa, picture.input(), &store);
+    ASSERT_TRUE(store.find({}));
+    EXPECT_FALSE(store.find({0.1, "dual"}));
+    const FieldMesh again = meshForFilm(nsaa, picture.input(), &store);
+    EXPECT_EQ(first.report.surface_to_mesh, again.report.surface_to_mesh);
+    EXPECT_GE(again.report.seconds, 0.5 * first.report.seconds);  // what it took, not what reading it takes
+    EXPECT_EQ(runOnMesh(nsaa, first, picture.input()).image.rgba,
+              runOnMesh(nsaa, again, picture.input()).image.rgba);
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        std::filesystem::resize_file(entry.path(), 1000);
+    EXPECT_FALSE(store.find({}));
 }
 
 TEST(FieldMesh, IsAsFineAsItIsAskedFor) {
