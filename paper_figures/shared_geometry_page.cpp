@@ -93,7 +93,7 @@ std::string notesHtml(const SharedGeometry& found) {
 std::string headlinesHtml(const SharedGeometry& found) {
     std::string out;
     for (const Comparison& scene : found.scenes)
-        out += "<p><b>" + escapedHtml(scene.scene) + "</b><br>" +
+        out += "<p style='white-space:pre-line'><b>" + escapedHtml(scene.scene) + "</b><br>" +
                escapedHtml(compare::meshReferenceWords(scene)) + "</p>\n";
     return out;
 }
