@@ -17,6 +17,7 @@
 #include "pipeline/film_footprint.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/polygonize_within.h"
+#include "sdf/evaluate.h"
 #include "sdf/field_of_all.h"
 
 namespace edgewise {
@@ -207,6 +208,19 @@ class FilmMesher {
         }
     }
 
+    /// A place of the disc where nothing covers it, so that its own shape wins there; its rim's first corner
+    /// where there is none.
+    template <class Rim>
+    glm::dvec3 placeOnSurface(const glm::dvec3& foot, const Rim& rim) const {
+        for (double part = 1.0; part > 1e-4; part *= 0.7)
+            for (int corner = 0; corner < kDiscCorners; corner += 8) {
+                const glm::dvec3 p = glm::mix(foot, rim(corner), part);
+                const double value = sdf::valueAt(surface_->tape(), p);
+                if (std::abs(value) <= 1e-12 * (glm::length(p) + whole_.far)) return p;
+            }
+        return rim(0);
+    }
+
     /// Where rays that meet the half-space's border end. Nothing is seen of it from within.
     void addDisc(const HalfSpace& half) {
         const glm::dvec3& n = half.normal_world;
@@ -221,7 +235,7 @@ class FilmMesher {
             const double angle = 2.0 * glm::pi<double>() * corner / kDiscCorners;
             return foot + radius * (std::cos(angle) * u + std::sin(angle) * v);
         };
-        const TriangleLook look = surface_->lookAt(rim(0));
+        const TriangleLook look = surface_->lookAt(placeOnSurface(foot, rim));
         GeometryBuilder geometry;
         const auto triangle = [&](int a, int b, int c) {
             for (const int corner : {a, b, c}) geometry.add(std::uint32_t(corner), rim(corner), n);

@@ -173,7 +173,10 @@ TEST(FieldMesh, IsLitAsTheFieldIs) {
     const auto ball = tree.add(Kind::kSphere, {0.7}, {}, 1),
                box = tree.add(Kind::kBox, {0.8, 0.8, 0.8}, {}, 2);
     const auto cut = tree.add(Kind::kDifference, {}, {ball, at(tree, {0.5, 0.5, 0.5}, box)});
-    tree.root = tree.add(Kind::kUnion, {}, {ground, cut});
+    // Far away the wall covers the ground.
+    const auto wall = tree.add(Kind::kPlane, {0.0, 0.0, 1.0, -2.5}, {}, 1),
+               side = tree.add(Kind::kPlane, {1.0, 0.0, 0.0, -40.0}, {}, 2);
+    tree.root = tree.add(Kind::kUnion, {}, {wall, ground, cut, side});
     const MethodResult traced = picture.made("none"), mesh = picture.made("mesh+none");
     std::size_t off = 0;
     double beyond = -1.0;
@@ -193,7 +196,7 @@ TEST(FieldMesh, IsLitAsTheFieldIs) {
     EXPECT_LT(off, 4524u / 20);
     EXPECT_LT(beyond,
               0.004);  // what moves by a quarter of a pixel stays between neighbours; normals interpolated
-    EXPECT_EQ(mesh.counts.at("triangles"), mesh.mesh->triangles + 190u);  // the ground's disc has 192 corners
+    EXPECT_EQ(mesh.counts.at("triangles"), mesh.mesh->triangles + 3 * 190u);  // discs have 192 corners
 }
 
 TEST(FieldMesh, DependsOnTheFilmAndNotOnItsCrop) {
