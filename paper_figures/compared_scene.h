@@ -15,7 +15,8 @@ struct ComparedPicture {
     int width = 0, height = 0;
     std::string filter = "box";
     double radius = 0.5;
-    std::string device = "cpu";  ///< of methods that name none
+    std::string device = "cpu";   ///< of methods that name none
+    std::size_t most_meshes = 4;  ///< of a reference that is made of meshes
 };
 
 /// Of the runs inside: their stages have the name of what is measured.
@@ -35,7 +36,8 @@ class Labelled : public Progress {
 std::vector<std::string> workerArguments(const ComparedPicture& picture, const std::string& method);
 
 /// A row a method, by turns, judged against the reference, which is not timed, and by kinds of edges where
-/// those are wished for. Rows that failed say why. Throws Interrupted, InputError for no scene or method,
+/// those are wished for; a reference for an SDF scene by a triangle method is made of meshes
+/// (mesh_reference.h). Rows that failed say why. Throws Interrupted, InputError for no scene or method,
 /// WorkerFailure where the reference cannot be made.
 compare::Comparison compareOn(const ComparedPicture& picture, const std::string& reference,
                               const std::vector<std::string>& methods,

@@ -58,6 +58,7 @@ std::vector<FigureFile> makeSphereScenes(const FigureInput& input);
 std::vector<FigureFile> makeLottes(const FigureInput& input);
 std::vector<FigureFile> makeConeDrawn(const FigureInput& input);
 std::vector<FigureFile> makeErrorTime(const FigureInput& input);
+std::vector<FigureFile> makeSharedGeometry(const FigureInput& input);
 std::vector<FigureFile> makeStability(const FigureInput& input);
 std::vector<FigureFile> makePlanner(const FigureInput& input);
 std::vector<FigureFile> makeConeScenes(const FigureInput& input);

@@ -18,6 +18,8 @@ const std::vector<Figure>& figureRegistry() {
          makePerformance},
         {"error-time", "ours", "error against run time of every method on every scene", makeErrorTime},
 #ifdef EDGEWISE_HAS_ORACLE
+        {"shared-geometry", "ours", "triangle methods and SDF methods on the same four scenes",
+         makeSharedGeometry},
         {"stability", "ours", "the stability atlas: error against condition over stiff and extreme cases",
          makeStability},
 #endif

@@ -16,6 +16,8 @@ namespace sdf {
 struct FieldScene;
 }
 
+class PointShader;
+
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// 8-bit or float texels decoded to linear RGBA doubles on access; row 0 is the top row.
@@ -135,6 +137,8 @@ struct Scene {
     glm::dvec3 bounds_min{0.0}, bounds_max{0.0};
     std::shared_ptr<const sdf::FieldScene>
         field;  ///< an SDF scene; cameras, lights and bounds above are its own
+    /// Triangles are shaded by it and not by their materials: a mesh of an SDF scene.
+    std::shared_ptr<const PointShader> point_shader;
 };
 
 /// Where triangle `index` of the scene lives.

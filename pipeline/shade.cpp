@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "pipeline/point_shader.h"
+
 namespace edgewise {
 
 namespace {
@@ -45,6 +47,7 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
                  const ScreenScene& screen, const ScreenPieces& pieces)
     : scene_(scene),
       camera_from_world_(camera.camera_from_world),
+      world_from_camera_(glm::inverse(camera.camera_from_world)),
       map_(makeScreenMap(camera, film)),
       screen_(screen),
       pieces_(pieces),
@@ -72,6 +75,7 @@ Shading::Shading(const Scene& scene, const ResolvedCamera& camera, const Film& f
 }
 
 std::optional<LaneMaterial> Shading::plainLookOf(const Geometry& geometry) const {
+    if (scene_.point_shader) return std::nullopt;
     Surface surface;
     surface.geometry = &geometry;
     surface.material = &scene_.materials[geometry.material];
@@ -94,6 +98,7 @@ Shading::Surface Shading::surfaceOf(Owner owner) const {
     const TriangleRef at = findTriangle(scene_, owner);
     const Geometry& geometry = scene_.geometry[at.geometry];
     Surface surface;
+    surface.owner = owner;
     surface.geometry = &geometry;
     surface.material = &scene_.materials[geometry.material];
     surface.vertex = geometry.triangles[at.triangle];
@@ -299,7 +304,15 @@ glm::dvec3 Shading::litColor(const Surface& surface, const Location& at, const g
     return color;
 }
 
+glm::dvec3 Shading::ownColor(const Surface& surface, const Location& at) const {
+    const glm::dvec3 normal_eye = vertexNormalAt(surface, at.barycentric);
+    return scene_.point_shader->color({surface.owner,
+                                       glm::dvec3(world_from_camera_ * glm::dvec4(at.p_eye, 1.0)),
+                                       glm::dmat3(world_from_camera_) * normal_eye, surface.back_facing});
+}
+
 Shade Shading::shadeAt(const Surface& surface, const Location& at) const {
+    if (scene_.point_shader) return {ownColor(surface, at), 1.0};
     const glm::dvec4 base = baseAt(surface, at);
     const glm::dvec3 color(base);
     return {surface.material->unlit ? color : litColor(surface, at, color), alphaOf(surface, base.a)};
@@ -330,6 +343,7 @@ bool Shading::normalVaries(const Surface& surface) const {
 }
 
 bool Shading::varies(const Surface& surface) const {
+    if (scene_.point_shader) return true;
     const Material& material = *surface.material;
     if (baseVaries(surface)) return true;
     if (material.unlit) return false;

@@ -36,6 +36,8 @@ bool sameAtCorners(const std::vector<Vector>& values, const std::array<std::uint
 ///              and, under the default rig, + base color * kRigAmbient * occlusion
 ///     unlit    color = base color
 ///
+/// A scene's own PointShader takes the place of all that, but for normals.
+///
 /// The ambient term is what a white room sends back from a surface that loses nothing: a dielectric's diffuse
 /// and mirrored light sum up to about its base color, and a metal's f0 is its base color. So metals are not
 /// black without an environment. Occlusion dims this term alone.
@@ -95,6 +97,7 @@ class Shading {
   private:
     /// An owner's triangle; what follows `plane` holds once placeCorners() was there.
     struct Surface {
+        Owner owner = kBackground;
         const Geometry* geometry = nullptr;
         const Material* material = nullptr;
         std::array<std::uint32_t, 3> vertex{};
@@ -130,6 +133,7 @@ class Shading {
     glm::dvec3 emissiveAt(const Surface& surface, const Location& at) const;
     double ambientAt(const Surface& surface, const Location& at) const;
     glm::dvec3 litColor(const Surface& surface, const Location& at, const glm::dvec3& base) const;
+    glm::dvec3 ownColor(const Surface& surface, const Location& at) const;
     Shade shadeAt(const Surface& surface, const Location& at) const;
     Shade shadeClosest(const Surface& surface, Owner owner, glm::dvec2 sample_px) const;
     bool mapVaries(const Surface& surface, const TextureUse& use, TexelKind kind = TexelKind::kValue) const;
@@ -140,7 +144,7 @@ class Shading {
     double alphaOf(const Surface& surface, double base_alpha) const;
 
     const Scene& scene_;
-    glm::dmat4 camera_from_world_;
+    glm::dmat4 camera_from_world_, world_from_camera_;
     ScreenMap map_;
     const ScreenScene& screen_;
     const ScreenPieces& pieces_;

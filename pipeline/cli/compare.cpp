@@ -21,12 +21,15 @@
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/judge_row.h"
 #include "pipeline/compare/kinds_tables.h"
+#include "pipeline/compare/mesh_reference.h"
+#include "pipeline/compare/mesh_reference_text.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/schedule.h"
 #include "pipeline/compare/svg_pdf.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/load_scene.h"
+#include "pipeline/mesh_store.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/version.h"
@@ -77,7 +80,10 @@ void checkMethods(const CompareArguments& arguments) {
 class Study {
   public:
     Study(const CompareArguments& arguments, const ResultFolder& folder, Progress& progress)
-        : arguments_(arguments), folder_(folder), progress_(progress) {
+        : arguments_(arguments),
+          folder_(folder),
+          progress_(progress),
+          mesh_folder_(folder.path() / ".meshes") {
         options_.runs = readRuns("--runs", arguments.runs);
         if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
@@ -93,7 +99,18 @@ class Study {
             comparison_.rows.push_back(compare::rowOf(parseMethod(method), readFilter(filter)));
             contenders_.push_back({method, flagsOf(method, filter)});
         }
+        const MethodSpec reference = parseMethod(arguments.reference);
+        if (isFieldFile(findScene(arguments.picture.scene)) && wantsMesh(reference))
+            meshes_.emplace(
+                reference,
+                [this](const std::string& method) {
+                    return flagsOf(method, filterFor(arguments_, arguments_.reference));
+                },
+                folder_.path());
     }
+
+    /// Errors, and what the reference's own error is beside them.
+    std::string summary() const { return compare::meshReferenceWords(comparison_); }
 
     void run() {
         if (arguments_.resume) resume();
@@ -112,10 +129,25 @@ class Study {
     struct Reference {
         compare::ReferencePicture made;
         std::string png;
+        compare::MadeOfMeshes of_meshes;  ///< where it is
     };
 
+    void makeOfMeshes(const FilterArguments& filter, Reference& reference, Row& row) {
+        const auto typed = [](const std::optional<std::string>& text) {
+            return text ? nlohmann::json(*text) : nlohmann::json();
+        };
+        reference.of_meshes = meshes_->make(
+            {{"name", filter.name}, {"radius", typed(filter.radius)}, {"sigma", typed(filter.sigma)}}, row,
+            progress_);
+        for (const std::string& note : row.notes) spdlog::warn("{}", note);
+        reference.made.picture = reference.of_meshes.finest;
+        comparison_.mesh_reference = meshes_->facts();
+    }
+
     std::vector<std::string> flagsOf(const std::string& method, const FilterArguments& filter) const {
-        return workerFlags(arguments_.picture, filter, arguments_.making, method);
+        std::vector<std::string> flags = workerFlags(arguments_.picture, filter, arguments_.making, method);
+        flags.push_back("--meshes=" + mesh_folder_.path().string());
+        return flags;
     }
 
     static std::string keyOf(const FilterArguments& filter) {
@@ -130,9 +162,13 @@ class Study {
         if (references_.size() == 1) flags.push_back("--warn");
         Row row;
         Reference& reference = found->second;
-        reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row, progress_,
-                                              {true, references_.size() == 1});
-        if (reference.made.error) comparison_.reference_error = reference.made.error;
+        if (meshes_) {
+            makeOfMeshes(filter, reference, row);
+        } else {
+            reference.made = compare::referenceOf({arguments_.reference, flags}, folder_.path(), row,
+                                                  progress_, {true, references_.size() == 1});
+            if (reference.made.error) comparison_.reference_error = reference.made.error;
+        }
         size_ = row.size;
         if (references_.size() == 1) writeKinds(reference.made);
         reference.png = fileName(fmt::format("reference-{}.png", filter.name));
@@ -160,8 +196,10 @@ class Study {
     }
 
     void judge(Row& row, const ImageBuffer& picture) {
-        const compare::ReferencePicture& reference = makeReference(filterFor(arguments_, row.method)).made;
+        const Reference& made = makeReference(filterFor(arguments_, row.method));
+        const compare::ReferencePicture& reference = made.made;
         const ImageBuffer& truth = reference.picture;
+        if (meshes_) compare::judgeOnMesh(row, picture, meshes_->facts(), made.of_meshes);
         const std::string name = fileName(row.method);
         compare::judgeRow(row, picture, reference);
         writePicture(picture, name, row.device);
@@ -213,10 +251,12 @@ class Study {
     const CompareArguments& arguments_;
     const ResultFolder& folder_;
     Progress& progress_;
+    const MeshFolder mesh_folder_;  ///< meshes are made once for all workers
     compare::ScheduleOptions options_;
     Comparison comparison_;
     std::vector<Contender> contenders_;
     std::map<std::string, Reference> references_;
+    std::optional<compare::MeshReferenceMaker> meshes_;  ///< the reference is a mesh's
     glm::ivec2 size_{0};
     std::string kinds_png_;
 };
@@ -226,7 +266,9 @@ void runCompare(const CompareArguments& arguments) {
     const ResultFolder folder(arguments.folder);
     ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
     try {
-        Study(arguments, folder, progress).run();
+        Study study(arguments, folder, progress);
+        study.run();
+        if (!arguments.quiet) fmt::print("{}", study.summary());
     } catch (const compare::WorkerFailure& failure) {
         throwAsOurs(failure, "compare");
     }

@@ -1,6 +1,7 @@
 // The other end of compare/worker_process: makes one method's pictures, as often as it is asked.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,9 @@
 #include "pipeline/cli/statistics.h"
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/error.h"
+#include "pipeline/field_mesh.h"
 #include "pipeline/judge/edge_kinds.h"
+#include "pipeline/judge/silhouette.h"
 #include "pipeline/methods/edge_classes.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/progress_bar.h"
@@ -30,6 +33,7 @@ struct WorkerArguments {
     FilterArguments filter;
     MethodArguments making;
     std::string method;
+    std::string meshes;  ///< a MeshStore's folder; empty: none
     bool warns = false;
 };
 
@@ -50,6 +54,8 @@ class Worker {
         if (what == "edges") return edges();
         if (what == "kinds") return kinds();
         if (what == "check") return check(request);
+        if (what == "filter") return refilter(request.at("filter"));
+        if (what == "silhouette") return silhouette();
         compare::writeRaw(request.at("path").get<std::string>(), made_.image);
         return Json::object();
     }
@@ -59,19 +65,48 @@ class Worker {
         picture_ = loadPicture(arguments_.picture, progress_);
         takeBackground(arguments_.making, picture_->scene, options_);
         if (arguments_.warns) warnOfIgnored(picture_->scene);
+        if (picture_->scene.field && wantsMesh(method_)) mesh_ = makeMesh();
         return Json::object();
+    }
+
+    FieldMesh makeMesh() {
+        if (arguments_.meshes.empty()) return meshForFilm(method_, input());
+        const MeshStore store(arguments_.meshes);
+        return meshForFilm(method_, input(), &store);
     }
 
     Json run() {
         made_ = {};
         Stopwatch watch;
-        made_ = runMethod(method_, inputOf(picture_->film));
+        made_ = mesh_ ? runOnMesh(method_, *mesh_, inputOf(picture_->film))
+                      : runMethod(method_, inputOf(picture_->film));
         const double seconds = watch.lap() - made_.setup_seconds;
+        if (mesh_) addMeshReport(mesh_->report, made_);
         throwIfInterrupted();
         Json reply = Json::parse(statisticsJson(made_));
         reply["seconds"] = seconds;
         reply["size"] = {picture_->film.width, picture_->film.height};
         return reply;
+    }
+
+    Json refilter(const Json& filter) {
+        const auto typed = [&](const char* key) {
+            const Json& value = filter.at(key);
+            return value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
+        };
+        filter_ = readFilter({filter.at("name"), typed("radius"), typed("sigma")});
+        return Json::object();
+    }
+
+    /// Of the field and of its mesh.
+    Json silhouette() {
+        const judge::SilhouetteDistance distance = judge::silhouetteDistance(
+            judge::fieldMask(input()),
+            judge::triangleMask(mesh_.value().scene, picture_->camera, picture_->film), picture_->film.crop);
+        const auto px = [](double x) { return std::min(x, judge::kFarthestContourPx); };
+        return {{"there", px(distance.first_to_second_px)},
+                {"back", px(distance.second_to_first_px)},
+                {"mean", px(distance.mean_px)}};
     }
 
     /// A digit a pixel.
@@ -82,7 +117,10 @@ class Worker {
         throwIfInterrupted();
         return {{"classes", digits}};
     }
-    Json edges() { return classesJson(edgeClasses(inputOf(picture_->film))); }
+    Json edges() {
+        return classesJson(edgeClasses({mesh_ ? mesh_->scene : picture_->scene, picture_->camera,
+                                        picture_->film, filter_, options_, progress_}));
+    }
     /// None but of an SDF scene.
     Json kinds() {
         constexpr int kLattice = 8;  // as fine as what ssaa:8 tells of a pixel
@@ -103,6 +141,8 @@ class Worker {
         return {picture_->scene, picture_->camera, film, filter_, options_, progress_};
     }
 
+    MethodInput input() { return inputOf(picture_->film); }
+
     const WorkerArguments& arguments_;
     Prefilter filter_;
     MethodSpec method_;
@@ -110,6 +150,7 @@ class Worker {
     ThreadLimit threads_;
     ProgressBar progress_;
     std::optional<Picture> picture_;
+    std::optional<FieldMesh> mesh_;  ///< made once: what it takes is set-up of every run
     MethodResult made_;
 };
 
@@ -147,6 +188,7 @@ void addCompareWorker(CLI::App& program) {
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
     command->add_option("--method", arguments->method)->required();
+    command->add_option("--meshes", arguments->meshes);
     command->add_flag("--warn", arguments->warns);
     command->callback([arguments] { serve(*arguments); });
 }

@@ -15,18 +15,13 @@
 #include "pipeline/error.h"
 #include "pipeline/judge/mesh_quality.h"
 #include "pipeline/load_scene.h"
-#include "pipeline/polygonize.h"
+#include "pipeline/polygonize_within.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/write_mesh.h"
 #include "sdf/field_scene.h"
 
 namespace edgewise::cli {
 namespace {
-
-constexpr int kLinesPerCell = 4;
-/// With --max-error: cells at first, tries, and of the error what a next try asks for, of the one before.
-constexpr int kFirstResolution = 64, kTries = 4;
-constexpr double kLess = 0.7;
 
 struct PolygonizeArguments {
     std::string scene, output, mesher = "dual", command_line;
@@ -63,32 +58,18 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
     return options;
 }
 
-std::optional<MeshDistance> measure(const Polygonized& made, const Scene& scene) {
-    return distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice, scene.field->bound_holds,
-                      kLinesPerCell);
-}
-
-/// Asks for less each time, with smaller cells at last, until what is measured is within the error.
-Polygonized polygonizeWithin(double max_error, const Scene& scene, PolygonizeOptions options,
-                             std::optional<MeshDistance>& distance) {
-    for (int n = 1;; ++n) {
-        Polygonized made = polygonize(scene, options);
-        throwIfInterrupted();
-        distance = measure(made, scene);
-        if (!distance) throw FailureError("--max-error", "this build has no CGAL to measure it with");
-        const double worst = std::max(distance->mesh_to_surface, distance->surface_to_mesh);
-        if (worst <= max_error) return made;
-        if (n == kTries || options.resolution > sdf::kMostResolution / 2)
-            throw FailureError(
-                "--max-error",
-                fmt::format("{} is not met: {} from mesh to surface, {} back (near {},{},{}), with cells of "
-                            "{} divided {} times at most",
-                            max_error, distance->mesh_to_surface, distance->surface_to_mesh,
-                            distance->worst_on_surface.x, distance->worst_on_surface.y,
-                            distance->worst_on_surface.z, made.lattice.step, sdf::kMostLevels));
-        options.most_off = *options.most_off * kLess;
-        if (n > 1 || options.mesher != Mesher::kDual) options.resolution *= 2;
+Polygonized meshOf(const Scene& scene, const PolygonizeOptions& options, bool check,
+                   std::optional<MeshDistance>& distance) {
+    if (options.most_off) {
+        MeasuredMesh measured =
+            polygonizeWithin(*options.most_off, "--max-error", scene, options, throwIfInterrupted);
+        distance = measured.distance;
+        return std::move(measured.made);
     }
+    Polygonized made = polygonize(scene, options);
+    throwIfInterrupted();
+    if (check) distance = measuredDistance(made, scene);
+    return made;
 }
 
 nlohmann::json recordOf(const Polygonized& made, const std::optional<MeshDistance>& distance, bool check) {
@@ -124,10 +105,7 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
         options.box.reset();  // of what is left, the cap is the bounds
     }
     std::optional<MeshDistance> distance;
-    const Polygonized made = options.most_off ? polygonizeWithin(*options.most_off, scene, options, distance)
-                                              : polygonize(scene, options);
-    throwIfInterrupted();
-    if (!arguments.no_check && !distance) distance = measure(made, scene);
+    const Polygonized made = meshOf(scene, options, !arguments.no_check, distance);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
     const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");

@@ -20,6 +20,7 @@
 #include "pipeline/cli/statistics.h"
 #include "pipeline/cli/strips.h"
 #include "pipeline/error.h"
+#include "pipeline/field_mesh.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/version.h"
 #include "pipeline/write_image.h"
@@ -136,15 +137,18 @@ MethodResult makePicture(const RenderArguments& arguments, const MethodSpec& met
                          const MethodInput& input) {
     Outputs outputs(arguments, input);
     MethodResult all;
+    std::optional<FieldMesh> mesh;  // one for all strips
+    if (input.scene.field && wantsMesh(method)) mesh = meshForFilm(method, input);
     for (const PixelBox& strip : stripsOf(input.film.crop, input.options)) {
         Film film = input.film;
         film.crop = strip;
-        const MethodResult made =
-            runMethod(method, {input.scene, input.camera, film, input.filter, input.options, input.progress});
+        const MethodInput part{input.scene, input.camera, film, input.filter, input.options, input.progress};
+        const MethodResult made = mesh ? runOnMesh(method, *mesh, part) : runMethod(method, part);
         outputs.write(made);
         addStrip(made, all);
     }
     outputs.finish();
+    if (mesh) addMeshReport(mesh->report, all);
     return all;
 }
 

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/methods/mesh_report.h"
+
 namespace edgewise::cli {
 namespace {
 
@@ -28,6 +30,7 @@ std::string statisticsJson(const MethodResult& result) {
     json["plan"] = nlohmann::ordered_json::array();
     for (const PlanEntry& entry : result.plan)
         json["plan"].push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
+    if (result.mesh) json["mesh"] = meshJson(result.mesh);
     json["notes"] = result.notes;
     return json.dump(2) + "\n";
 }

@@ -11,6 +11,7 @@
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/error.h"
+#include "pipeline/field_mesh.h"
 #include "pipeline/methods/exact.h"
 #include "pipeline/methods/nsaa.h"
 #include "pipeline/progress_bar.h"
@@ -92,9 +93,12 @@ void weights(const WeightsArguments& arguments) {
     checkAbilities(arguments.making, parseMethod("nsaa"));
     const ThreadLimit threads(options);
     ProgressBar quiet(false, interruptFlag());
-    const Picture picture = loadPicture(arguments.picture, quiet);
-    requireTriangles(picture.scene, "weights");
+    Picture picture = loadPicture(arguments.picture, quiet);
     warnOfIgnored(picture.scene);
+    if (picture.scene.field)
+        picture.scene = meshForFilm(parseMethod("nsaa"),
+                                    {picture.scene, picture.camera, picture.film, filter, options, quiet})
+                            .scene;
     const glm::ivec2 pixel = readPixel(arguments.pixel, picture.film);
     const PixelReport report =
         weighPixel({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel);

@@ -36,6 +36,10 @@ Row rowOf(const MethodSpec& method, const Prefilter& filter) {
     row.method = method.typed;
     row.parameters = method.parameters;
     if (method.number) row.parameters["number"] = fmt::format("{}", *method.number);
+    if (method.mesh) {
+        row.parameters["mesh.error"] = fmt::format("{}", method.mesh->error_px);
+        row.parameters["mesh.mesher"] = method.mesh->mesher;
+    }
     row.filter = filter.name, row.radius = filter.radius;
     if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
         row.sigma = filter.sigma;

@@ -31,6 +31,32 @@ struct FewEdgesError {
     double rmse = 0.0;
 };
 
+/// Between two pictures, over linear RGB.
+struct PictureDistance {
+    double rmse = 0.0, max = 0.0;
+    std::optional<double> edge_rmse;
+};
+
+/// One mesh of a reference, and how its picture differs from the coarser one's.
+struct MeshLevel {
+    double error_px = 0.0;  ///< asked for
+    MeshReport mesh;
+    std::optional<PictureDistance> moved;  ///< none: the first
+    std::optional<PictureDistance> left;   ///< the picture's own error, by how it moved
+};
+
+/// What is known of a reference that is made of a mesh of an SDF scene: each level's mesh is asked to be half
+/// as far off as the last one's, until what is left of the picture's error is `stated` at most. Outlines move
+/// with the mesh, and pixels with outlines, to first order: of meshes that are measured a and then b < a off
+/// the surface, moving the picture by m, the second one's is off by m b / (a - b) (Richardson).
+struct MeshReference {
+    double stated = 0.0;  ///< RMSE
+    std::vector<MeshLevel> levels;
+    /// Of the first level's mesh and of the field, in px.
+    double silhouette_there_px = 0.0, silhouette_back_px = 0.0, silhouette_mean_px = 0.0;
+    bool reached() const { return levels.back().left && levels.back().left->rmse <= stated; }
+};
+
 struct Row {
     std::string method;                             ///< as typed
     std::map<std::string, std::string> parameters;  ///< resolved
@@ -49,6 +75,10 @@ struct Row {
     std::optional<FewEdgesError> few_edges;    ///< with a reference that is nsaa
     std::optional<judge::KindErrors> kinds;    ///< where kinds of edges are told: SDF scenes
     std::optional<double> bias_half_width;     ///< of error->bias's 95 % interval; none for small pictures
+    std::optional<MeshReport> mesh;            ///< of methods that polygonized the scene
+    /// With a reference of a mesh: the reference's own error, by this row's filter, and, of methods on the
+    /// reference's first mesh, the distance from exact antialiasing of that mesh.
+    std::optional<PictureDistance> reference_error, antialiasing;
     std::vector<PlanEntry> plan;
     std::vector<std::string> notes;
     std::string exr, png;                  ///< file names in the folder; empty where no picture was made
@@ -76,7 +106,8 @@ struct Comparison {
     std::string scene, reference, command, version;
     Machine machine;
     std::vector<Row> rows;
-    std::optional<ReferenceError> reference_error;  ///< of SDF scenes with a reference ssaa:K
+    std::optional<ReferenceError> reference_error = {};  ///< of SDF scenes with a reference ssaa:K
+    std::optional<MeshReference> mesh_reference = {};
 };
 
 }  // namespace edgewise::compare

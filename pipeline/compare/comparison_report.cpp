@@ -10,6 +10,7 @@
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/kinds_tables.h"
+#include "pipeline/compare/mesh_reference_text.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/error.h"
@@ -186,8 +187,8 @@ std::string comparisonHtml(const Comparison& c, const std::filesystem::path& fol
                escapedHtml(c.command), escapedHtml(c.machine.processor), c.machine.cores,
                c.machine.memory_mib) +
            "<div class='card'>" + paretoSvg(c) + slopesText(c) +
-           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) + "</div>\n" +
-           (tellsKinds(c) ? "<h2>By kinds of edges</h2>" + kindsTable(c) : "") +
+           "</div>\n<h2>Methods</h2><div class='card scroll'>" + table(c) + meshReferenceHtml(c) +
+           "</div>\n" + (tellsKinds(c) ? "<h2>By kinds of edges</h2>" + kindsTable(c) : "") +
            "<h2>Pictures</h2><div class='card'>" + viewer() +
            "</div>\n<h2>Stages, plans and what was left out</h2><div class='card'>" + plans +
            "</div>\n<h2>Definitions</h2><div class='card'>" + kDefinitions +

@@ -7,6 +7,7 @@
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/kinds_tables.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/mesh_report.h"
 
 namespace edgewise::compare {
 namespace {
@@ -32,6 +33,34 @@ Json planJson(const std::vector<PlanEntry>& plan) {
     for (const PlanEntry& entry : plan)
         json.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
     return json;
+}
+
+Json distanceJson(const std::optional<PictureDistance>& distance) {
+    if (!distance) return nullptr;
+    return {{"rmse", distance->rmse}, {"max", distance->max}, {"edge_rmse", orNull(distance->edge_rmse)}};
+}
+
+std::optional<PictureDistance> distanceFromJson(const nlohmann::json& json) {
+    if (json.is_null()) return std::nullopt;
+    PictureDistance distance{json.at("rmse"), json.at("max"), {}};
+    if (!json.at("edge_rmse").is_null()) distance.edge_rmse = json.at("edge_rmse").get<double>();
+    return distance;
+}
+
+Json meshReferenceJson(const MeshReference& reference) {
+    Json levels = Json::array();
+    for (const MeshLevel& level : reference.levels)
+        levels.push_back({{"error_px", level.error_px},
+                          {"mesh", meshJson(level.mesh)},
+                          {"moved", distanceJson(level.moved)},
+                          {"own_error", distanceJson(level.left)}});
+    return {{"stated", reference.stated},
+            {"reached", reference.reached()},
+            {"levels", levels},
+            {"silhouette_px",
+             {{"field_to_mesh", reference.silhouette_there_px},
+              {"mesh_to_field", reference.silhouette_back_px},
+              {"mean", reference.silhouette_mean_px}}}};
 }
 
 Json fileJson(const std::string& name) {
@@ -66,6 +95,9 @@ Json rowJson(const Row& row) {
             {"few_edges",
              row.few_edges ? Json{{"pixels", row.few_edges->pixels}, {"rmse", row.few_edges->rmse}} : Json()},
             {"edge_kinds", kindsJson(row.kinds)},
+            {"mesh", meshJson(row.mesh)},
+            {"reference_error", distanceJson(row.reference_error)},
+            {"antialiasing", distanceJson(row.antialiasing)},
             {"counts", row.counts},
             {"peak_mib", row.peak_mib},
             {"exr", fileJson(row.exr)},
@@ -131,6 +163,7 @@ std::string comparisonJson(const Comparison& c) {
               {"version", c.version}, {"machine", machineJson(c.machine)}, {"rows", Json::array()}};
     json["reference_error"] = referenceErrorJson(c.reference_error);
     for (const Row& row : c.rows) json["rows"].push_back(rowJson(row));
+    if (c.mesh_reference) json["mesh_reference"] = meshReferenceJson(*c.mesh_reference);
     json["slopes"] = Json::array();
     for (const ErrorSlope& s : errorSlopes(c.rows))
         json["slopes"].push_back({{"family", s.family},
@@ -203,6 +236,9 @@ Row rowFromText(const std::string& text) {
         row.setup_seconds = json.at("setup_seconds").get<std::vector<double>>();
         row.stages = json.at("stages").get<std::map<std::string, std::vector<double>>>();
         row.counts = json.value("counts", row.counts);
+        row.mesh = meshFromJson(json.at("mesh"));
+        row.reference_error = distanceFromJson(json.at("reference_error"));
+        row.antialiasing = distanceFromJson(json.at("antialiasing"));
         row.peak_mib = json.at("peak_mib");
         if (const Json& e = json.at("error"); !e.is_null()) {
             judge::ErrorMetrics& error = row.error.emplace();

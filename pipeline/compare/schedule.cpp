@@ -1,13 +1,12 @@
 #include "pipeline/compare/schedule.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdlib>
 
 #include "pipeline/compare/raw_image.h"
+#include "pipeline/compare/scratch_file.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/mesh_report.h"
 
 namespace edgewise::compare {
 namespace {
@@ -21,39 +20,6 @@ void takeRun(const Json& reply, Row& row) {
     row.setup_seconds.push_back(reply.at("setup_seconds"));
     for (const auto& [name, seconds] : reply.at("stages").items()) row.stages[name].push_back(seconds);
 }
-
-void takeFacts(const Json& reply, Row& row) {
-    row.device = reply.at("device");
-    row.size = {reply.at("size")[0], reply.at("size")[1]};
-    row.peak_mib = std::max<double>(row.peak_mib, reply.at("peak_mib"));
-    row.counts = reply.at("counts").get<std::map<std::string, std::uint64_t>>();
-    row.notes = reply.at("notes");
-    row.plan.clear();
-    for (const Json& entry : reply.at("plan"))
-        row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
-}
-
-/// A name that no other process has, in a folder that several may share; the file goes away with it.
-class ScratchFile {
-  public:
-    ScratchFile(const std::filesystem::path& folder, std::size_t index) {
-        std::string name = folder / fmt::format(".picture-{}-XXXXXX", index);
-        const int descriptor = mkstemp(name.data());
-        if (descriptor < 0) throw FailureError(folder.string(), "no picture can be kept there for a moment");
-        close(descriptor);
-        path_ = name;
-    }
-    ~ScratchFile() {
-        std::error_code error;
-        std::filesystem::remove(path_, error);
-    }
-    ScratchFile(const ScratchFile&) = delete;
-    ScratchFile& operator=(const ScratchFile&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// One contender and what is left of its budget.
 class Turn {
@@ -133,6 +99,18 @@ class Turn {
 };
 
 }  // namespace
+
+void takeFacts(const Json& reply, Row& row) {
+    row.device = reply.at("device");
+    row.size = {reply.at("size")[0], reply.at("size")[1]};
+    row.peak_mib = std::max<double>(row.peak_mib, reply.at("peak_mib"));
+    row.counts = reply.at("counts").get<std::map<std::string, std::uint64_t>>();
+    row.notes = reply.at("notes");
+    row.mesh = meshFromJson(reply.value("mesh", Json()));
+    row.plan.clear();
+    for (const Json& entry : reply.at("plan"))
+        row.plan.push_back({entry.at("stage"), entry.at("runs"), entry.at("why")});
+}
 
 void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions& options,
                 std::vector<Row>& rows, const TakePicture& take, const RowChanged& changed,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 
 #include "pipeline/compare/comparison.h"
 #include "pipeline/image_buffer.h"
@@ -34,6 +35,9 @@ using RowChanged = std::function<void(std::size_t index)>;
 void runByTurns(const std::vector<Contender>& contenders, const ScheduleOptions& options,
                 std::vector<Row>& rows, const TakePicture& take, const RowChanged& changed,
                 Progress& progress);
+
+/// Of a worker's reply to "run": all but its times.
+void takeFacts(const nlohmann::json& reply, Row& row);
 
 struct ReferencePicture {
     ImageBuffer picture;

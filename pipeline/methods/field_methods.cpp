@@ -135,10 +135,6 @@ MethodResult traceSmaa(const MethodSpec& spec, const MethodInput& in, const Fiel
 }
 
 MethodResult runOnField(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& in) {
-    if (!entry.run_field)
-        throw InputError(fmt::format("method '{}'", spec.typed),
-                         "needs triangles, and this build does not polygonize SDF scenes yet; --method none "
-                         "or ssaa:4 traces the field");
     const DeviceChoice choice = choiceOf(spec, in);
     const DeviceDecision decision = decideDevice(choice, kHasVulkan && !entry.field_on_cpu);
     const bool asked = choice == DeviceChoice::kVulkan;

@@ -2,6 +2,7 @@
 // plan.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -76,6 +77,27 @@ struct PlanEntry {
     std::string why;
 };
 
+/// How an SDF scene becomes triangles.
+struct MeshChoice {
+    double error_px = 0.2;  ///< mesh and surface are no further apart, in pixels where that is closest
+    std::string mesher = "dual";
+};
+
+/// The mesh that a triangle method was given in the place of an SDF scene.
+struct MeshReport {
+    std::string mesher;
+    std::size_t triangles = 0;     ///< beside planes
+    double pixel_world = 0.0;      ///< a pixel where the surface is closest, in world units
+    double asked_world = 0.0;      ///< how far mesh and surface may be apart
+    double mesh_to_surface = 0.0;  ///< measured
+    double surface_to_mesh = 0.0;
+    double cell_world = 0.0;  ///< of the mesher's lattice
+    double seconds = 0.0;     ///< in all; part of setup_seconds
+    double errorPx() const {
+        return pixel_world > 0.0 ? std::max(mesh_to_surface, surface_to_mesh) / pixel_world : 0.0;
+    }
+};
+
 struct MethodResult {
     ImageBuffer image;
     std::vector<StageTime> stages;
@@ -84,15 +106,17 @@ struct MethodResult {
     double setup_seconds = 0.0;
     std::string device = "cpu";      ///< where it ran
     std::vector<std::string> notes;  ///< one sentence each
+    std::optional<MeshReport> mesh;  ///< of an SDF scene that was polygonized first
 };
 
-/// A method as the user typed it: NAME, NAME:NUMBER, NAME:key=value,..., composed by '+'.
+/// A method as the user typed it: NAME, NAME:NUMBER, NAME:key=value,..., composed by '+'; mesh+ before it.
 struct MethodSpec {
     std::string typed;
     std::string name;
     std::optional<int> number;
     std::map<std::string, std::string> parameters;
     std::vector<MethodSpec> composed;  ///< what follows each '+', in order
+    std::optional<MeshChoice> mesh;    ///< mesh+: SDF scenes are polygonized first
 
     /// The parameter's value, or the fallback.
     std::string parameter(const std::string& key, const std::string& fallback) const {
@@ -113,12 +137,19 @@ bool takesFilter(const MethodSpec& spec);
 /// and there is none.
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options);
 
+/// Whether the method makes its picture of an SDF scene's mesh: it needs triangles, or is mesh+M.
+bool wantsMesh(const MethodSpec& spec);
+
+struct FieldMesh;
+/// The picture of a mesh that is made already (field_mesh.h), of the same camera and film as the input's but
+/// for the crop. What the mesh took is not in the result: addMeshReport() adds it.
+MethodResult runOnMesh(const MethodSpec& spec, const FieldMesh& mesh, const MethodInput& input);
+void addMeshReport(const MeshReport& report, MethodResult& result);
+
+/// SDF scenes are polygonized first where wantsMesh() says so.
 /// Throws InputError for what a method cannot do, FailureError where a limit is met, Interrupted when
 /// cancelled.
 MethodResult runMethod(const MethodSpec& spec, const MethodInput& input);
-
-/// Throws InputError for an SDF scene: `what` needs triangles.
-void requireTriangles(const Scene& scene, std::string_view what);
 
 /// One line a method of this build: name, parameters, what it is.
 std::vector<std::string> describeMethods();
@@ -143,7 +174,7 @@ struct MethodEntry {
     Number number = Number::kAbsent;
     int smallest = 1, largest = 64;  ///< of the number
     bool own_box = false;            ///< takes no --filter
-    bool needs_triangles = false;    ///< SDF scenes are refused
+    bool needs_triangles = false;    ///< SDF scenes are polygonized first
     std::string composes_with = {};  ///< name+THIS:K; empty: it stands alone
     std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
     std::map<std::string, std::vector<std::string>>

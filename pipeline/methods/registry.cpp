@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "pipeline/device_error.h"
+#include "pipeline/field_mesh.h"
 
 namespace edgewise {
 namespace {
@@ -105,12 +106,23 @@ void takeParameter(std::string_view key, std::string_view value, const MethodEnt
         return;
     }
     const auto known = entry.choices.find(std::string(key));
-    if (key != "device" && known == entry.choices.end())
+    const bool takes_device = key == "device" && entry.name != "mesh";
+    if (!takes_device && known == entry.choices.end())
         fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
-    const std::vector<std::string>& choices = key == "device" ? kDevices : known->second;
+    const std::vector<std::string>& choices = takes_device ? kDevices : known->second;
     if (std::find(choices.begin(), choices.end(), value) == choices.end())
         fail(spec.typed, fmt::format("{} is {}, not '{}'", key, fmt::join(choices, " or "), value));
     if (!spec.parameters.emplace(key, value).second) fail(spec.typed, fmt::format("{} is given twice", key));
+}
+
+void takeParts(std::string_view text, const MethodEntry& entry, MethodSpec& spec) {
+    for (const std::string_view part : split(text, ',')) {
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos)
+            takeNumber(part, entry, spec);
+        else
+            takeParameter(part.substr(0, equals), part.substr(equals + 1), entry, spec);
+    }
 }
 
 MethodSpec parseOne(std::string_view typed) {
@@ -119,17 +131,35 @@ MethodSpec parseOne(std::string_view typed) {
     const std::size_t colon = typed.find_first_of(":,");
     spec.name = typed.substr(0, colon);
     const MethodEntry& entry = requireMethod(typed, spec.name);
-    if (colon != std::string_view::npos)
-        for (const std::string_view part : split(typed.substr(colon + 1), ',')) {
-            const std::size_t equals = part.find('=');
-            if (equals == std::string_view::npos)
-                takeNumber(part, entry, spec);
-            else
-                takeParameter(part.substr(0, equals), part.substr(equals + 1), entry, spec);
-        }
+    if (colon != std::string_view::npos) takeParts(typed.substr(colon + 1), entry, spec);
     if (entry.number == MethodEntry::Number::kRequired && !spec.number)
         fail(typed, fmt::format("needs a number, as in '{}:4'", entry.name));
     return spec;
+}
+
+/// What stands before methods that a mesh is made for.
+const MethodEntry& meshEntry() {
+    static const MethodEntry entry{.name = "mesh",
+                                   .summary = "SDF scenes: mesh+M is M on a mesh, within `error` of a pixel",
+                                   .choices = {{"mesher", {"dual", "marching-cubes", "cgal"}}},
+                                   .ranges = {{"error", {0.001, 100}}}};
+    return entry;
+}
+
+/// Of "mesh+M" and "mesh:error=...+M", without what it takes.
+std::optional<MeshChoice> takeMesh(std::string_view typed, std::vector<std::string_view>& parts) {
+    const std::string_view first = parts.front();
+    const std::size_t colon = first.find_first_of(":,");
+    if (first.substr(0, colon) != "mesh") return std::nullopt;
+    if (parts.size() == 1) fail(typed, "needs a method, as in 'mesh+ssaa:4'");
+    MethodSpec spec;
+    spec.typed = typed;
+    if (colon != std::string_view::npos) takeParts(first.substr(colon + 1), meshEntry(), spec);
+    parts.erase(parts.begin());
+    MeshChoice choice;
+    choice.error_px = spec.numberOf("error", choice.error_px);
+    choice.mesher = spec.parameter("mesher", choice.mesher);
+    return choice;
 }
 
 std::string describe(const MethodEntry& entry) {
@@ -141,7 +171,7 @@ std::string describe(const MethodEntry& entry) {
         parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
     for (const auto& [key, range] : entry.ranges)
         parameters.push_back(fmt::format("{}={}", key, rangeWords(range)));
-    parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
+    if (entry.name != "mesh") parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
     return fmt::format("{}:{}  {}", entry.name, fmt::join(parameters, ","), entry.summary);
 }
 
@@ -284,10 +314,14 @@ double MethodSpec::numberOf(const std::string& key, double fallback) const {
 }
 
 MethodSpec parseMethod(std::string_view typed) {
-    const auto parts = split(typed, '+');
+    auto parts = split(typed, '+');
+    const std::optional<MeshChoice> mesh = takeMesh(typed, parts);
     MethodSpec spec = parseOne(parts.front());
     spec.typed = typed;
+    spec.mesh = mesh;
     for (std::size_t i = 1; i < parts.size(); ++i) spec.composed.push_back(parseOne(parts[i]));
+    if (mesh && !requireMethod(typed, spec.name).run)
+        fail(typed, fmt::format("'{}' traces SDF scenes, and a mesh is of triangles", spec.name));
     return spec;
 }
 
@@ -317,13 +351,16 @@ MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const
     return result;
 }
 
-MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
-    const MethodEntry& entry = requireMethod(spec.typed, spec.name);
+namespace {
+
+void requireComposition(const MethodEntry& entry, const MethodSpec& spec) {
     for (const MethodSpec& other : spec.composed)
         if (other.name != entry.composes_with || spec.composed.size() > 1)
             fail(spec.typed, fmt::format("'{}' does not compose with {}", spec.name,
                                          entry.composes_with.empty() ? "other methods" : other.typed));
-    if (input.scene.field) return runOnField(entry, spec, input);
+}
+
+MethodResult runOnTriangles(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input) {
     if (!entry.run) fail(spec.typed, "traces SDF scenes, and this one is of triangles");
     const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
@@ -337,15 +374,48 @@ MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
     return result;
 }
 
-void requireTriangles(const Scene& scene, std::string_view what) {
-    if (scene.field)
-        throw InputError(std::string(what),
-                         "needs triangles, and this build does not polygonize SDF scenes yet");
+}  // namespace
+
+bool wantsMesh(const MethodSpec& spec) {
+    return spec.mesh || requireMethod(spec.typed, spec.name).needs_triangles;
+}
+
+MethodResult runOnMesh(const MethodSpec& spec, const FieldMesh& mesh, const MethodInput& input) {
+    const MethodEntry& entry = requireMethod(spec.typed, spec.name);
+    requireComposition(entry, spec);
+    MethodSpec on_cpu = spec;
+    on_cpu.parameters.erase("device");
+    RenderOptions options = input.options;
+    options.device = DeviceChoice::kCpu;
+    MethodResult result = runOnTriangles(
+        entry, on_cpu, {mesh.scene, input.camera, input.film, input.filter, options, input.progress});
+    if (decideDevice(spec, input.options).vulkan)
+        result.notes.push_back(
+            fmt::format("'{}' ran on the CPU: surfaces of SDF scenes are shaded there", spec.name));
+    return result;
+}
+
+void addMeshReport(const MeshReport& report, MethodResult& result) {
+    result.mesh = report;
+    result.setup_seconds += report.seconds;
+    result.notes.push_back(wordsOf(report));
+}
+
+MethodResult runMethod(const MethodSpec& spec, const MethodInput& input) {
+    const MethodEntry& entry = requireMethod(spec.typed, spec.name);
+    requireComposition(entry, spec);
+    if (!input.scene.field) return runOnTriangles(entry, spec, input);
+    if (!wantsMesh(spec)) return runOnField(entry, spec, input);
+    const FieldMesh mesh = meshForFilm(spec, input);
+    MethodResult result = runOnMesh(spec, mesh, input);
+    addMeshReport(mesh.report, result);
+    return result;
 }
 
 std::vector<std::string> describeMethods() {
     std::vector<std::string> lines;
     for (const MethodEntry& entry : methodRegistry()) lines.push_back(describe(entry));
+    lines.push_back(describe(meshEntry()));
     return lines;
 }
 

@@ -139,17 +139,65 @@ TEST(SdfCommand, RendersWithEveryMethodAndAllChannels) {
     }
 }
 
-TEST(SdfCommand, WhatNeedsTrianglesNamesWhatWorks) {
-    for (const char* method : {"nsaa", "msaa:4", "csaa:32"}) {
+TEST(SdfCommand, TriangleMethodsPolygonizeAndSaySo) {
+    for (const std::string method : {"nsaa", "msaa:4", "csaa:32", "rt:4", "mesh:error=0.1+ssaa:4"}) {
         const TemporaryFolder folder;
-        const ProgramRun run =
-            inFolder(folder, {"render", "ball.sdf.json", "-o", "a.exr", "--method", method});
-        EXPECT_EQ(run.status, 2);
-        ASSERT_EQ(lines(run.err).size(), 1u) << run.err;
-        EXPECT_NE(run.err.find("needs triangles"), std::string::npos) << run.err;
-        EXPECT_NE(run.err.find("--method none or ssaa:4 traces the field"), std::string::npos) << run.err;
-        EXPECT_FALSE(fs::exists(folder / "a.exr"));
+        const ProgramRun run = inFolder(
+            folder, {"render", "ball.sdf.json", "-o", "a.exr", "--stats", "s.json", "--size", "32x32",
+                     "--filter", "box", "--method", method, "--memory", "1", "--device", "cpu"});
+        if (run.err.find("CGAL") != std::string::npos) GTEST_SKIP() << run.err;
+        if (run.err.find("no method is called") != std::string::npos) continue;  // a build without Embree
+        ASSERT_EQ(run.status, 0) << method << run.err;
+        EXPECT_NE(run.err.find("polygonized by 'dual'"), std::string::npos) << run.err;
+        const json stats = json::parse(readFile(folder / "s.json"));
+        EXPECT_LE(stats["mesh"]["error_px"], 0.25) << method;
+        EXPECT_GT(stats["mesh"]["triangles"], 100) << method;
+        EXPECT_EQ(stats["counts"]["triangles"], stats["mesh"]["triangles"]) << method;
+        EXPECT_GE(stats["setup_seconds"], stats["mesh"]["seconds"]) << method;
+        EXPECT_DOUBLE_EQ(stats["mesh"]["pixel"], 4.0 / 32.0);  // orthographic
+        const Picture picture = readPicture(folder / "a.exr");
+        EXPECT_NEAR(picture.at(16, 16)[0], 1.0, 1e-6) << method;
+        EXPECT_NEAR(picture.at(1, 1)[0], 0.25, 1e-6) << method;
     }
+}
+
+TEST(SdfCommand, ComparesBothFamiliesOnOneGeometry) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        inFolder(folder, {"compare",     "ball.sdf.json", "-o",       "out",  "--size",   "32x32",
+                          "--reference", "nsaa",          "--runs",   "1",    "--filter", "box",
+                          "--device",    "cpu",           "--method", "nsaa", "--method", "ssaa:4",
+                          "--method",    "mesh+ssaa:4",   "--method", "none"});
+    if (run.err.find("CGAL") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("the reference's own"), std::string::npos) << run.out;
+    EXPECT_NE(readFile(folder / "out/report.html").find("Shared geometry"), std::string::npos);
+    const json results = json::parse(readFile(folder / "out/results.json"));
+    const json& reference = results.at("mesh_reference");
+    ASSERT_GE(reference.at("levels").size(), 2u);
+    const json& last = reference.at("levels").back().at("own_error");
+    EXPECT_LT(last.at("rmse"), 0.5 * reference.at("levels")[1].at("own_error").at("rmse").get<double>());
+    EXPECT_EQ(reference.at("reached"), last.at("rmse") <= reference.at("stated"));
+    double before = 1.0;
+    for (const json& level : reference.at("levels")) {
+        EXPECT_LT(level.at("mesh").at("error_px"), before);
+        before = level.at("mesh").at("error_px");
+    }
+    EXPECT_LE(reference.at("silhouette_px").at("field_to_mesh"), 0.25);
+    EXPECT_LE(reference.at("silhouette_px").at("mesh_to_field"), 0.25);
+    const auto row = [&](const std::string& method) {
+        for (const json& r : results.at("rows"))
+            if (r.at("method") == method) return r;
+        return json();
+    };
+    for (const json& r : results.at("rows")) EXPECT_FALSE(r.at("reference_error").is_null());
+    // Exact antialiasing of its own mesh: what nsaa errs by is the mesh's.
+    EXPECT_EQ(row("nsaa").at("antialiasing").at("rmse"), 0.0);
+    EXPECT_GT(row("nsaa").at("error").at("rmse"), 0.0);
+    EXPECT_GT(row("mesh+ssaa:4").at("antialiasing").at("rmse"), 0.0);
+    EXPECT_TRUE(row("ssaa:4").at("antialiasing").is_null());
+    EXPECT_TRUE(row("ssaa:4").at("mesh").is_null());
+    EXPECT_LT(row("ssaa:4").at("error").at("rmse"), row("none").at("error").at("rmse"));
 }
 
 TEST(SdfCommand, RefusesChannelsThatCountTriangles) {

@@ -188,8 +188,6 @@ TEST(FieldMethods, ParametersThatAreNumbersAreChecked) {
 }
 
 TEST(FieldMethods, TrianglesAndFieldsHaveTheirOwnMethods) {
-    EXPECT_THROW(Picture().render("nsaa"), InputError);
-    EXPECT_THROW(Picture().render("msaa:4"), InputError);
     Picture picture;
     picture.options.aovs = {Aov::kCryptomatte};
     EXPECT_THROW(picture.render("none"), InputError);

@@ -117,25 +117,5 @@ TEST(SdfScenes, CamerasLightsAndFarPlanesAreTheirOwn) {
     EXPECT_EQ(scene.lights[0].direction_world, scene.field->lights[0].direction_world);
 }
 
-TEST(SdfScenes, MethodsThatNeedTrianglesSaySo) {
-    const Scene scene = shipped("blob");
-    Film film;
-    const ResolvedCamera camera = resolveCamera(scene, {}, film);
-    Progress progress;
-    const Prefilter filter = makePrefilter("box", {}, {});
-    const RenderOptions options;
-    for (const char* method : {"nsaa", "msaa:4", "csaa:32"}) {
-        try {
-            runMethod(parseMethod(method), {scene, camera, film, filter, options, progress});
-            ADD_FAILURE() << method;
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.what(),
-                      "method '" + std::string(method) +
-                          "': needs triangles, and this build does not polygonize SDF scenes yet; "
-                          "--method none or ssaa:4 traces the field");
-        }
-    }
-}
-
 }  // namespace
 }  // namespace edgewise

@@ -1,0 +1,29 @@
+#include "pipeline/methods/mesh_report.h"
+
+namespace edgewise {
+
+nlohmann::ordered_json meshJson(const std::optional<MeshReport>& mesh) {
+    if (!mesh) return nullptr;
+    return {{"mesher", mesh->mesher},
+            {"triangles", mesh->triangles},
+            {"pixel", mesh->pixel_world},
+            {"max_error", mesh->asked_world},
+            {"mesh_to_surface", mesh->mesh_to_surface},
+            {"surface_to_mesh", mesh->surface_to_mesh},
+            {"error_px", mesh->errorPx()},
+            {"cell", mesh->cell_world},
+            {"seconds", mesh->seconds}};
+}
+
+std::optional<MeshReport> meshFromJson(const nlohmann::json& json) {
+    if (json.is_null()) return std::nullopt;
+    MeshReport mesh;
+    mesh.mesher = json.at("mesher");
+    mesh.triangles = json.at("triangles");
+    mesh.pixel_world = json.at("pixel"), mesh.asked_world = json.at("max_error");
+    mesh.mesh_to_surface = json.at("mesh_to_surface"), mesh.surface_to_mesh = json.at("surface_to_mesh");
+    mesh.cell_world = json.at("cell"), mesh.seconds = json.at("seconds");
+    return mesh;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,30 @@
+// Meshes whose measured distance from the surface is below a bound.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "pipeline/judge/mesh_quality.h"
+#include "pipeline/polygonize.h"
+
+namespace edgewise {
+
+/// Cells along the box's longest side that it begins with, where nobody says.
+inline constexpr int kFirstResolution = 64;
+
+/// None in a build without CGAL.
+std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene);
+
+struct MeasuredMesh {
+    Polygonized made;
+    MeshDistance distance;
+};
+
+/// Asks for less each time, with smaller cells at last, until what is measured is within the error.
+/// `between`, called after each try, may throw. Throws FailureError naming `asked` where that is not reached,
+/// and in a build that cannot measure it.
+MeasuredMesh polygonizeWithin(double max_error, const std::string& asked, const Scene& scene,
+                              PolygonizeOptions options, const std::function<void()>& between = {});
+
+}  // namespace edgewise
