@@ -153,7 +153,7 @@ TEST(FigureCommand, OursAndConeTablesSayWhatTheyMeasured) {
         if (row[0] != "edges") rmse[row[0] + " " + row[2]] = std::stod(row[3]);
     // cones mend contours and nothing else; lines mend the rest
     EXPECT_LT(rmse.at("contour ctss"), 0.8 * rmse.at("contour none"));
-    for (const std::string kind : {"internal", "texture", "light"}) {
+    for (const std::string kind : {"internal", "texture", "shadow"}) {
         EXPECT_GT(rmse.at(kind + " ctss"), 0.8 * rmse.at(kind + " none")) << kind;
         EXPECT_LT(rmse.at(kind + " ctss-x"), 0.8 * rmse.at(kind + " none")) << kind;
     }
