@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/compare/judge_row.h"
 #include "pipeline/compare/mesh_reference.h"
+#include "pipeline/error.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/mesh_store.h"
 #include "pipeline/scene_catalog.h"
@@ -67,6 +69,17 @@ std::vector<std::string> workerArguments(const ComparedPicture& picture, const s
             "--device=" + picture.device,
             fmt::format("--memory={:.0f}", std::ceil(kUsualMemory + image_mib)),
             "--method=" + method};
+}
+
+std::vector<std::string> knownOf(const std::vector<std::string>& methods, std::vector<std::string>& notes) {
+    std::vector<std::string> known;
+    for (const std::string& method : methods) try {
+            parseMethod(method);
+            known.push_back(method);
+        } catch (const InputError& error) {
+            if (std::ranges::find(notes, error.what()) == notes.end()) notes.push_back(error.what());
+        }
+    return known;
 }
 
 namespace {

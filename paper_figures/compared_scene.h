@@ -35,6 +35,9 @@ class Labelled : public Progress {
 /// Of compare-worker, with memory that holds the image.
 std::vector<std::string> workerArguments(const ComparedPicture& picture, const std::string& method);
 
+/// Those of the methods that this build has; why it has not the others, as notes, each once.
+std::vector<std::string> knownOf(const std::vector<std::string>& methods, std::vector<std::string>& notes);
+
 /// A row a method, by turns, judged against the reference, which is not timed, and by kinds of edges where
 /// those are wished for; a reference for an SDF scene by a triangle method is made of meshes
 /// (mesh_reference.h). Rows that failed say why. Throws Interrupted, InputError for no scene or method,

@@ -77,18 +77,6 @@ SceneKind kindOf(const std::string& scene) {
     return findScene(scene).string().ends_with(".json") ? SceneKind::kField : SceneKind::kTriangles;
 }
 
-/// Those of this build, the others as notes.
-std::vector<std::string> knownOf(const std::vector<std::string>& methods, std::vector<std::string>& notes) {
-    std::vector<std::string> known;
-    for (const std::string& method : methods) try {
-            parseMethod(method);
-            known.push_back(method);
-        } catch (const InputError& error) {
-            if (std::ranges::find(notes, error.what()) == notes.end()) notes.push_back(error.what());
-        }
-    return known;
-}
-
 void measureScene(const std::string& name, const Effort& effort, const std::filesystem::path& scratch,
                   ErrorTime& found, Progress& progress) try {
     const SceneKind kind = kindOf(name);

@@ -45,18 +45,6 @@ std::string textOf(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Those of this build, the others as notes.
-std::vector<std::string> knownOf(const std::vector<std::string>& methods, std::vector<std::string>& notes) {
-    std::vector<std::string> known;
-    for (const std::string& method : methods) try {
-            parseMethod(method);
-            known.push_back(method);
-        } catch (const InputError& error) {
-            notes.emplace_back(error.what());
-        }
-    return known;
-}
-
 void measureScene(const std::string& name, const Effort& effort, const std::filesystem::path& folder,
                   SharedGeometry& found, Progress& progress) try {
     const std::filesystem::path file = folder / (name + ".sdf.json");

@@ -8,9 +8,9 @@
 namespace edgewise::sdf {
 
 /// Divides edges whose middles are further off than the limits; the new vertex is put on the surface, on its
-/// sharp edge where it has one there. Where triangles would come to meet it stays at the edge's middle: the
-/// mesh goes through itself no more than before. Gives how many were added. Of materials and normals none are
-/// kept.
+/// sharp edge where it has one there. Edges are turned, and vertices moved or drawn into neighbours, where
+/// that takes the mesh there. Changes by which triangles would come to meet are not made: the mesh goes
+/// through itself no more than before. Gives how many were added. Of materials and normals none are kept.
 std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits);
 

@@ -104,23 +104,11 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
 
 bool TriangleTree::near(const glm::dvec3& p, double distance) const {
     const double most = distance * distance;
-    std::uint32_t waiting[kDeepest];
-    int count = 0;
-    if (!nodes_.empty()) waiting[count++] = 0;
-    while (count > 0) {
-        const std::uint32_t at = waiting[--count];
-        const Node& node = nodes_[at];
-        if (squaredToBox(p, node.low, node.high) > most) continue;
-        if (node.count == 0) {
-            waiting[count++] = at + 1, waiting[count++] = node.begin;
-            continue;
-        }
-        for (std::uint32_t n = node.begin; n < node.begin + node.count; ++n) {
-            const Triangle& t = triangles_[order_[n]];
-            if (squaredDistance(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]) <= most) return true;
-        }
-    }
-    return false;
+    return anyIn([&](const Node& node) { return squaredToBox(p, node.low, node.high) <= most; },
+                 [&](std::uint32_t at) {
+                     const auto& [a, b, c] = triangles_[at];
+                     return squaredDistance(p, positions_[a], positions_[b], positions_[c]) <= most;
+                 });
 }
 
 }  // namespace edgewise::sdf

@@ -1,7 +1,5 @@
 #include "pipeline/methods/cell_lights.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "pipeline/methods/light_borders.h"
@@ -54,14 +52,16 @@ std::vector<glm::dvec2> CellLights::placesOf(const EdgeCell& cell, int piece) co
 std::size_t CellLights::averagePieces(CellShades& shades) const {
     std::vector<LitPiece> lit;
     std::vector<std::uint32_t> of;
-    for (const EdgeCell& cell : cells_)
-        for (std::size_t k = 0; rows_.inside(cell.pixel) && k < cell.pieces.size(); ++k) {
+    for (const EdgeCell& cell : cells_) {
+        if (!rows_.inside(cell.pixel)) continue;
+        for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
             const CellPiece& piece = cell.pieces[k];
             if (!(piece.weight > 0.0 && piece.weight < 1.0) || piece.shade == kNoGroup) continue;
             if (!seesOther(shades, cell.pixel, piece.shade, piece)) continue;
             lit.push_back({cell.sign, shades.hits[piece.shade], placesOf(cell, static_cast<int>(k))});
             of.push_back(piece.shade);
         }
+    }
     const std::vector<glm::dvec4> means = meansAt(grid_, device_, lit);
     for (std::size_t i = 0; i < of.size(); ++i) shades.colors[of[i]] = means[i];
     return of.size();
@@ -69,12 +69,10 @@ std::size_t CellLights::averagePieces(CellShades& shades) const {
 
 std::vector<std::size_t> CellLights::divideOthers(const CellShades& shades,
                                                   std::vector<glm::dvec4>& colors) const {
-    constexpr std::size_t kPart = 1024;
     const std::vector<std::size_t> order = rows_.zOrder(ConeRows::kMargin);
-    std::vector<std::vector<std::size_t>> parts((order.size() + kPart - 1) / kPart);
-    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
-        for (std::size_t k = p * kPart; k < std::min(order.size(), (p + 1) * kPart); ++k) {
-            const std::size_t i = order[k];
+    std::vector<std::vector<std::size_t>> parts(partsOf(order));
+    forParts(order, [&](std::size_t p, std::span<const std::size_t> pixels) {
+        for (const std::size_t i : pixels) {
             const std::uint32_t own = shades.of_pixel[i];
             if (!divided(i) && own != kNoGroup && seesOther(shades, i, own, rows_.planes[i]))
                 parts[p].push_back(i);

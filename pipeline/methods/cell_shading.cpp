@@ -19,24 +19,22 @@ void CellShading::shade(const ConeRows& rows, std::vector<EdgeCell>& cells, Cell
 
 /// In Z-order, a pixel's pieces after its own hit.
 void CellShading::collect(const ConeRows& rows, std::vector<EdgeCell>& cells, CellShades& shades) const {
-    constexpr std::size_t kPart = 1024;
     shades.of_pixel.assign(rows.cones.samples(), kNoGroup);
     std::vector<EdgeCell*> cell_of(rows.cones.samples(), nullptr);
     for (EdgeCell& cell : cells) cell_of[cell.pixel] = &cell;
     const std::vector<std::size_t> order = rows.zOrder(1);
-    const auto eachOf = [&](std::size_t part, const auto& visit) {
-        for (std::size_t k = part * kPart; k < std::min(order.size(), (part + 1) * kPart); ++k)
-            eachShaded(rows, order[k], cell_of[order[k]], visit);
+    const auto eachOf = [&](std::span<const std::size_t> pixels, const auto& visit) {
+        for (const std::size_t i : pixels) eachShaded(rows, i, cell_of[i], visit);
     };
-    std::vector<std::size_t> begin((order.size() + kPart - 1) / kPart + 1, 0);
-    tbb::parallel_for(std::size_t(0), begin.size() - 1, [&](std::size_t part) {
-        eachOf(part, [&](std::size_t, const sdf::SurfaceHit&, CellPiece*) { ++begin[part + 1]; });
+    std::vector<std::size_t> begin(partsOf(order) + 1, 0);
+    forParts(order, [&](std::size_t part, std::span<const std::size_t> pixels) {
+        eachOf(pixels, [&](std::size_t, const sdf::SurfaceHit&, CellPiece*) { ++begin[part + 1]; });
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     shades.rays.resize(begin.back()), shades.hits.resize(begin.back());
-    tbb::parallel_for(std::size_t(0), begin.size() - 1, [&](std::size_t part) {
+    forParts(order, [&](std::size_t part, std::span<const std::size_t> pixels) {
         std::size_t at = begin[part];
-        eachOf(part, [&](std::size_t i, const sdf::SurfaceHit& hit, CellPiece* piece) {
+        eachOf(pixels, [&](std::size_t i, const sdf::SurfaceHit& hit, CellPiece* piece) {
             shades.rays[at] = rows.cones.rays[i];
             if (piece) shades.rays[at].ray = grid_.ray(piece->seen_px);
             shades.hits[at] = hit;

@@ -99,12 +99,11 @@ ConeRows coneRows(FieldTracer& device, const PixelBox& box) {
 }
 
 std::vector<EdgeCell> doubtfulCells(const ConeRows& rows, double t_max) {
-    constexpr std::size_t kPart = 1024;
     const std::vector<std::size_t> order = rows.zOrder(1);
-    std::vector<std::vector<EdgeCell>> parts((order.size() + kPart - 1) / kPart);
-    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
-        for (std::size_t k = p * kPart; k < std::min(order.size(), (p + 1) * kPart); ++k)
-            if (auto cell = doubtfulCell(rows, order[k], t_max)) parts[p].push_back(std::move(*cell));
+    std::vector<std::vector<EdgeCell>> parts(partsOf(order));
+    forParts(order, [&](std::size_t p, std::span<const std::size_t> pixels) {
+        for (const std::size_t i : pixels)
+            if (auto cell = doubtfulCell(rows, i, t_max)) parts[p].push_back(std::move(*cell));
     });
     std::vector<EdgeCell> cells;
     for (std::vector<EdgeCell>& part : parts)

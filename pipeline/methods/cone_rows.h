@@ -1,7 +1,12 @@
 // The cones of some rows of pixels, and which of these something but one smooth surface may lie in.
 #pragma once
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 #include "pipeline/field_tracer.h"
 #include "pipeline/methods/edge_cell.h"
@@ -52,6 +57,19 @@ struct ConeRows {
         return {i - w - 1, i - w, i - w + 1, i - 1, i + 1, i + w - 1, i + w, i + w + 1};
     }
 };
+
+/// visit(part, pixels) for parts of pixels one after the other, on all threads.
+inline constexpr std::size_t kPixelsInPart = 1024;
+inline std::size_t partsOf(std::span<const std::size_t> pixels) {
+    return (pixels.size() + kPixelsInPart - 1) / kPixelsInPart;
+}
+template <class Visit>
+void forParts(std::span<const std::size_t> pixels, const Visit& visit) {
+    tbb::parallel_for(std::size_t(0), partsOf(pixels), [&](std::size_t part) {
+        const std::size_t first = part * kPixelsInPart;
+        visit(part, pixels.subspan(first, std::min(kPixelsInPart, pixels.size() - first)));
+    });
+}
 
 /// Of some pixels and the margin around them.
 ConeRows coneRows(FieldTracer& device, const PixelBox& box);

@@ -61,7 +61,7 @@ struct Walk {
     bool full = false;
 };
 
-/// `passed(from, to, open)` of every step that is not taken back.
+/// `passed(before, s)` of every longer step that is not taken back: the states on its way and after it.
 template <class Passed>
 Walk walk(const Field& field, const ConeRules& rules, const Passed& passed) {
     Walk result;
@@ -72,7 +72,7 @@ Walk walk(const Field& field, const ConeRules& rules, const Passed& passed) {
         ++result.evaluations;
         result.groups += s.closed;
         if (s.last_t == before.t) {
-            if (before.longer) ++result.longer, passed(before.last_t, before.t, before.open);
+            if (before.longer) ++result.longer, passed(before, s);
         } else {
             ++result.taken_back;
         }
@@ -84,12 +84,16 @@ Walk walk(const Field& field, const ConeRules& rules, const Passed& passed) {
 TEST(ConeSteps, PassNoGroupAndLeaveNone) {
     std::mt19937 random(kSeed);
     Walk all;
-    int in_groups = 0;
+    int in_groups = 0, before_hits = 0, landed = 0, flown_through = 0;
     for (int i = 0; i < 2000; ++i) {
         const Field field(random);
         const ConeRules rules = rulesOf(true);
-        const Walk made = walk(field, rules, [&](double from, double to, bool open) {
-            in_groups += open;
+        const Walk made = walk(field, rules, [&](const ConeState& before, const ConeState& after) {
+            const double from = before.last_t, to = before.t;
+            const bool open = before.open, lands = open && !before.hard && after.hard;
+            in_groups += open, landed += lands;
+            before_hits += open && !before.hard && !lands;
+            bool within = false;
             for (int k = 1; k < 200; ++k) {
                 const double t = from + (to - from) * k / 200.0, radius = coneRadiusAt(rules, t);
                 // Of a cone, a share of slope^2 / 2 less than of a cylinder.
@@ -98,21 +102,33 @@ TEST(ConeSteps, PassNoGroupAndLeaveNone) {
                     ASSERT_LT(field.at(t), radius) << "seed " << kSeed << ", field " << i;
                 else
                     ASSERT_GT(field.at(t), radius - slack) << "seed " << kSeed << ", field " << i;
+                // Two balls hold the ray up to where it meets the surface.
+                const bool held = open && !before.hard && !lands;
+                ASSERT_FALSE(held && field.at(t) < 0.0) << "seed " << kSeed << ", field " << i;
+                within = within || field.at(t) < 0.0;
             }
+            flown_through += lands && within;
         });
         all.longer += made.longer, all.taken_back += made.taken_back;
     }
     std::printf("%d longer steps, %d of them in groups; %d taken back\n", all.longer, in_groups,
                 all.taken_back);
     EXPECT_GT(all.longer - in_groups, 2000);
+    std::printf(
+        "%d of them before the ray has met the surface; %d more to where it does, %d of these through "
+        "a part of it\n",
+        before_hits, landed, flown_through);
     EXPECT_GT(in_groups, 1000);
+    EXPECT_GT(before_hits, 100);
+    EXPECT_GT(landed, 100);
+    EXPECT_EQ(flown_through, 0);
     EXPECT_GT(all.taken_back, 1000);
 }
 
 /// Groups that a least step may or may not step into are shorter than the radius: those alone may differ.
 TEST(ConeSteps, MeetWhatAlgorithm1Meets) {
     std::mt19937 random(kSeed);
-    const auto nothing = [](double, double, bool) {};
+    const auto nothing = [](const ConeState&, const ConeState&) {};
     std::uint64_t plain_evaluations = 0, longer_evaluations = 0;
     int differ = 0, groups = 0;
     for (int i = 0; i < 2000; ++i) {
