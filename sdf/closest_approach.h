@@ -15,9 +15,10 @@ struct ClosestApproach {
     double distance = 0.0;           ///< > 0
 };
 
-/// Near t_start, to 1/64 of the pixel's radius where the distance is convex along the ray: between two places
-/// of which one comes nearer and one leads away, no tangent falls lower. None where the ray is within the
-/// solid there, or 20 evaluations find no such two.
+/// Near t_start, to 1/64 of the pixel's radius where the field is convex along the ray: between two places of
+/// which one comes nearer and one leads away, no tangent falls lower. Where the field is the greater one of
+/// two, its faces' edge: exact for planes, whatever their slopes. None where the ray is within the solid
+/// there, or 20 evaluations find no such two.
 std::optional<ClosestApproach> closestApproach(const CellTapes& cells, const FieldRay& ray, double t_start);
 
 }  // namespace edgewise::sdf

@@ -490,6 +490,45 @@ TEST(ConesAndLines, AWallsEdgeIsExact) {
     EXPECT_GT(edges, 200);
 }
 
+/// Two faces that lean apart from the view meet in an edge; the field is the greater one of their distances,
+/// one of them shrunk. Its outline is a line in closed form.
+TEST(ConesAndLines, TheOutlineOfAnIntersectionIsExact) {
+    double worst = 0.0, worst_corner = 0.0;
+    int edges = 0;
+    std::mt19937 random(kSeed);
+    std::printf("seed %u\n", kSeed);
+    std::uniform_real_distribution<> turn(5.0, 40.0), offset(-0.5, 0.5), lean(20.0, 70.0), shrink(0.3, 1.0);
+    for (int i = 0; i < 12; ++i) {
+        const Edge edge = edgeAt(turn(random) + 90.0 * (i % 4), offset(random));
+        FieldPicture picture = flatPicture(kSide, kSide);
+        sdf::Tree& tree = picture.field->tree;
+        const auto face = [&](double degrees) {
+            const double angle = glm::radians(degrees);
+            return tree.add(Kind::kPlane, {std::cos(angle), 0, std::sin(angle), 0});
+        };
+        const double front = lean(random), back = -lean(random), factor = shrink(random);
+        const auto shrunk = tree.add(Kind::kScaleValue, {factor}, {face(i % 2 ? front : back)});
+        onEdge(tree, tree.add(Kind::kIntersection, {}, {face(i % 2 ? back : front), shrunk}), edge);
+        tree.root = static_cast<std::uint32_t>(tree.nodes.size() - 1);
+        picture.field->materials[0] = unlitWhite();
+        // A hit floats before the front face by kHardX of a value, and so beyond the edge on the film.
+        const double floats = kHardX / ((i % 2 ? factor : 1.0) * std::cos(glm::radians(front)));
+        const double reach = 0.5 * (std::abs(edge.n.x) + std::abs(edge.n.y));
+        const double corner = boxShare(edge.n, reach - floats);
+        const MethodResult seen = picture.made("ctss-x");
+        forPixels([&](int x, int y) {
+            const double exact = boxShare(edge, x, y), apart = std::abs(redOf(seen, x, y) - exact);
+            const bool hidden = 1.0 - exact <= corner;
+            edges += exact > 1e-9 && exact < 1.0 - 1e-9;
+            double& most = hidden ? worst_corner : worst;
+            most = std::max(most, apart);
+            EXPECT_LE(apart, hidden ? corner + kRounding : kRounding) << x << "," << y << " of picture " << i;
+        });
+    }
+    std::printf("%d edge pixels off by at most %.1e; corners not seen %.4f\n", edges, worst, worst_corner);
+    EXPECT_GT(edges, 200);
+}
+
 /// A ridge towards the eye, its sides lit apart. Planes are where the surface is: to the rounding of its
 /// distance, of 60.
 TEST(ConesAndLines, ACreaseIsWhereItsPlanesMeet) {
