@@ -177,7 +177,11 @@ int CellDivision::labelOf(const EdgeCell& cell, int i, double depth) const {
             continue;
         height = above, label = k;
     }
-    return label;
+    if (label != EdgeCell::kUnknown) return label;
+    // A ray that begins within a solid meets no surface where it is said to: what was asked of it is its own.
+    const auto own = std::ranges::find(cell.pieces, cell.sampleAt(i),
+                                       [](const CellPiece& piece) { return piece.seen_px; });
+    return own == cell.pieces.end() ? EdgeCell::kUnknown : static_cast<int>(own - cell.pieces.begin());
 }
 
 std::optional<sdf::FilmLine> CellDivision::outlineFrom(const glm::dvec2& p_px, double t) const {

@@ -508,7 +508,9 @@ TEST(ConesAndLines, TheOutlineOfAnIntersectionIsExact) {
         };
         const double front = lean(random), back = -lean(random), factor = shrink(random);
         const auto shrunk = tree.add(Kind::kScaleValue, {factor}, {face(i % 2 ? front : back)});
-        onEdge(tree, tree.add(Kind::kIntersection, {}, {face(i % 2 ? back : front), shrunk}), edge);
+        // A slab of it: else it would reach past the eye.
+        const auto box = tree.add(Kind::kBox, {100, 100, 8});
+        onEdge(tree, tree.add(Kind::kIntersection, {}, {face(i % 2 ? back : front), shrunk, box}), edge);
         tree.root = static_cast<std::uint32_t>(tree.nodes.size() - 1);
         picture.field->materials[0] = unlitWhite();
         // A hit floats before the front face by kHardX of a value, and so beyond the edge on the film.
@@ -527,6 +529,21 @@ TEST(ConesAndLines, TheOutlineOfAnIntersectionIsExact) {
     }
     std::printf("%d edge pixels off by at most %.1e; corners not seen %.4f\n", edges, worst, worst_corner);
     EXPECT_GT(edges, 200);
+}
+
+/// Rays of one pixel that begin on both sides of a surface: some meet nothing where they are said to hit.
+TEST(ConesAndLines, RaysThatBeginWithinASolidAreNamedAllTheSame) {
+    const Edge edge = edgeAt(31.0, 0.137);
+    FieldPicture picture = flatPicture(kSide, kSide);
+    sdf::Tree& tree = picture.field->tree;
+    onEdge(tree, tree.add(Kind::kPlane, {1, 0, 0.3, 0}), edge);  // reaches past the eye
+    tree.root = static_cast<std::uint32_t>(tree.nodes.size() - 1);
+    picture.field->materials[0] = unlitWhite();
+    const MethodResult seen = picture.made("ctss-x");
+    forPixels([&](int x, int y) {
+        EXPECT_GE(redOf(seen, x, y), 0.0) << x << "," << y;
+        EXPECT_LE(redOf(seen, x, y), 1.0) << x << "," << y;
+    });
 }
 
 /// A ridge towards the eye, its sides lit apart. Planes are where the surface is: to the rounding of its
