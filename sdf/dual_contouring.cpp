@@ -50,7 +50,7 @@ Limits limitsOf(const MeshRequest& request) {
         return {{kSharpMiddle * step, kSmoothMiddle * step},
                 {kSharpOff * step, kSmoothOff * step},
                 {kSharpThin * step, kSmoothThin * step}};
-    const auto part = [&](double of) { return MeshLimits{of * *request.most_off, of * *request.most_off}; };
+    const auto part = [&](double of) { return MeshLimits{of, of, &*request.most_off}; };
     return {part(kMiddlePart), part(kOffPart), part(kThinPart)};
 }
 
@@ -58,6 +58,7 @@ class DualContouring {
   public:
     DualContouring(const MeshRequest& request, MeshCounts& counts)
         : request_(request),
+          tape_(request.tape, request.lattice, request.bound_holds),
           limits_(limitsOf(request)),
           counts_(counts),
           bricks_(findBricks(request.tape, request.lattice, request.bound_holds)),
@@ -76,18 +77,16 @@ class DualContouring {
   private:
     /// False: it is as near as it can be.
     bool meshBricks(int round) {
-        DualComplex complex = dualComplex(request_, std::move(bricks_));
-        counts_.turned = complex.turned;
-        counts_.debris = leaveOutDebris(request_, complex);
+        DualComplex complex = dualComplex(request_, tape_, std::move(bricks_)); counts_.turned = complex.turned;
+        counts_.debris = leaveOutDebris(request_, tape_, complex);
         counts_.nodes = complex.bricks.nodes, counts_.pruned = complex.bricks.pruned;
         counts_.bricks = complex.bricks.bricks.size(), counts_.cells = complex.cells;
-        mesh_ = dualTriangles(request_.lattice, complex, counts_.mended);
+        mesh_ = dualTriangles(request_.lattice, tape_, complex, counts_.mended);
         const SharpCells sharp = sharpCells(request_.lattice, complex);
-        const TapeAt tape(request_.tape, request_.lattice, complex.bricks);
-        counts_.added = refineMesh(mesh_, tape, request_.lattice.step, sharp, limits_.middle);
+        counts_.added = refineMesh(mesh_, tape_, sharp, limits_.middle);
         off_.clear();
         if (round < rounds_ && complex.bricks.bricks.size() < most_bricks_)
-            off_ = placesOff(mesh_, request_, complex, sharp, limits_.most);
+            off_ = placesOff(mesh_, request_, tape_, complex, sharp, limits_.most);
         bricks_ = std::move(complex.bricks);
         return !off_.empty();
     }
@@ -99,15 +98,15 @@ class DualContouring {
     }
     void simplify() {
         const double step = request_.lattice.step;
-        const TapeAt tape(request_.tape, request_.lattice, bricks_);
-        findMaterials(tape, mesh_);
+        findMaterials(tape_, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, step);
-        counts_.collapsed += thinOut(mesh_, tape, step, limits_.thin);
-        findMaterials(tape, mesh_);
-        if (request_.attributes) findNormals(tape, mesh_);
+        counts_.collapsed += thinOut(mesh_, tape_, step, limits_.thin);
+        findMaterials(tape_, mesh_);
+        if (request_.attributes) findNormals(tape_, mesh_);
     }
 
     const MeshRequest& request_;
+    const TapeAt tape_;
     const Limits limits_;
     MeshCounts& counts_;
     BrickList bricks_;

@@ -21,7 +21,7 @@ inline constexpr int kMostHalved = 3;
 /// surface; from where the surface crosses cells' edges, and from where it is nearest to cells' centres, to
 /// the mesh. What the mesh has missed whole is found so too.
 std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                const DualComplex& complex, const SharpCells& sharp,
+                                const TapeAt& tape, const DualComplex& complex, const SharpCells& sharp,
                                 const MeshLimits& limits);
 
 /// Divides the bricks of such places, until there are so many. Gives how many; 0: all are as small as they

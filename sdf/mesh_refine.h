@@ -11,7 +11,7 @@ namespace edgewise::sdf {
 /// sharp edge where it has one there. Edges are turned, and vertices moved or drawn into neighbours, where
 /// that takes the mesh there. Changes by which triangles would come to meet are not made: the mesh goes
 /// through itself no more than before. Gives how many were added. Of materials and normals none are kept.
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp,
                        const MeshLimits& limits);
 
 }  // namespace edgewise::sdf

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sdf/mesh_lattice.h"
+#include "sdf/most_off.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise::sdf {
@@ -14,9 +15,8 @@ struct MeshRequest {
     /// Values change no faster than the tape says (check_lipschitz); false: intervals find the surface.
     bool bound_holds = true;
     bool attributes = true;  ///< normals too
-    /// Dual contouring: how far mesh and surface may be apart, in world units, as far as cells can be divided
-    /// for it; none: a small part of a cell.
-    std::optional<double> most_off = {};
+    /// Dual contouring: how far mesh and surface may be apart, as far as cells can be divided for it; none: a small part of a cell.
+    std::optional<MostOff> most_off = {};
     std::size_t most_bricks = std::size_t(1) << 20;  ///< cells are divided no further when there are more
 };
 

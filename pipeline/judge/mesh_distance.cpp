@@ -52,36 +52,44 @@ double toSurface(const sdf::TapeAt& tape, const glm::dvec3& from) {
     return std::max(glm::distance(p, from), std::abs(value));
 }
 
-void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, MeshDistance& result) {
+void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const sdf::MostOff* allowed,
+                   MeshDistance& result) {
     for (const sdf::Triangle& t : mesh.triangles) {
         const glm::dvec3 &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]],
                          &c = mesh.position_world[t[2]];
         // Every place of a triangle is within a third of its longest side of one that is asked.
         const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
         result.mesh_spacing = std::max(result.mesh_spacing, longest / 3.0);
-        for (const auto& w : kPlaces)
-            result.mesh_to_surface =
-                std::max(result.mesh_to_surface, toSurface(tape, w[0] * a + w[1] * b + w[2] * c));
+        for (const auto& w : kPlaces) {
+            const glm::dvec3 p = w[0] * a + w[1] * b + w[2] * c;
+            const double distance = toSurface(tape, p);
+            result.mesh_to_surface = std::max(result.mesh_to_surface, distance);
+            if (allowed)
+                result.worst_part =
+                    std::max(result.worst_part, distance / allowed->leastWithin(p, longest / 3.0));
+        }
         result.mesh_samples += std::size(kPlaces);
     }
 }
 
 /// Where the surface crosses a segment, if the signs at its ends differ.
-bool crossing(const sdf::TapeView& tape, glm::dvec3 inside, glm::dvec3 outside, glm::dvec3& place) {
-    const bool first = sdf::valueAt(tape, inside) < 0.0, second = sdf::valueAt(tape, outside) < 0.0;
+bool crossing(const sdf::TapeAt& tape, glm::dvec3 inside, glm::dvec3 outside, glm::dvec3& place) {
+    const bool first = sdf::valueAt(tape(inside), inside) < 0.0,
+               second = sdf::valueAt(tape(outside), outside) < 0.0;
     if (first == second) return false;
     if (second) std::swap(inside, outside);
     for (int step = 0; step < kBisections; ++step) {
         place = 0.5 * (inside + outside);
-        (sdf::valueAt(tape, place) < 0.0 ? inside : outside) = place;
+        (sdf::valueAt(tape(place), place) < 0.0 ? inside : outside) = place;
     }
     return true;
 }
 
 class SurfaceToMesh {
   public:
-    SurfaceToMesh(Triangles& triangles, const sdf::Lattice& lattice, int per_cell, MeshDistance& result)
-        : tree_(triangles.begin(), triangles.end()), lattice_(lattice), per_cell_(per_cell), result_(result) {
+    SurfaceToMesh(Triangles& triangles, const sdf::TapeAt& tape, const sdf::Lattice& lattice, int per_cell,
+                  const sdf::MostOff* allowed, MeshDistance& result)
+        : tree_(triangles.begin(), triangles.end()), tape_(tape), lattice_(lattice), per_cell_(per_cell), allowed_(allowed), result_(result) {
         tree_.build();
     }
 
@@ -90,32 +98,36 @@ class SurfaceToMesh {
         for (int n = 0; n < kSide * kSide * kSide; ++n) {
             const glm::dvec3 low =
                 lattice_.corner(brick.unitsOf(glm::ivec3(n % kSide, n / kSide % kSide, n / (kSide * kSide))));
-            const double value = sdf::valueAt(brick.tape, low + 0.5 * lattice_.step);
+            const glm::dvec3 centre = low + 0.5 * lattice_.step;
+            const double value = sdf::valueAt(tape_(centre), centre);
             if (std::abs(value) > 1.75 * lattice_.step * slope_) continue;
-            for (int line = 0; line < per_cell_; ++line) ask(brick.tape, low);
+            for (int line = 0; line < per_cell_; ++line) ask(low);
         }
     }
     void slope(double most) { slope_ = std::max(most, 1e-3); }
 
   private:
     /// On a line of about a cell's length, its middle anywhere in the cell.
-    void ask(const sdf::TapeView& tape, const glm::dvec3& low) {
+    void ask(const glm::dvec3& low) {
         std::uniform_real_distribution<double> at(0.0, 1.0), side(-1.0, 1.0);
         const glm::dvec3 middle = low + lattice_.step * glm::dvec3(at(random_), at(random_), at(random_));
         glm::dvec3 along(side(random_), side(random_), side(random_));
         along *= lattice_.step / std::max(glm::length(along), 0.1);
         glm::dvec3 place;
-        if (!crossing(tape, middle - along, middle + along, place)) return;
+        if (!crossing(tape_, middle - along, middle + along, place)) return;
         ++result_.surface_samples;
         const double distance = std::sqrt(tree_.squared_distance(point(place)));
+        if (allowed_) result_.worst_part = std::max(result_.worst_part, distance / allowed_->at(place));
         if (distance <= result_.surface_to_mesh) return;
         result_.surface_to_mesh = distance;
         result_.worst_on_surface = place;
     }
 
     Tree tree_;
+    const sdf::TapeAt& tape_;
     const sdf::Lattice& lattice_;
     const int per_cell_;
+    const sdf::MostOff* const allowed_;
     MeshDistance& result_;
     double slope_ = 1.0;
     std::mt19937_64 random_{1};
@@ -124,15 +136,17 @@ class SurfaceToMesh {
 }  // namespace
 
 std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::Tape& tape,
-                                       const sdf::Lattice& lattice, bool bound_holds, int per_cell) {
+                                       const sdf::Lattice& lattice, bool bound_holds, int per_cell,
+                                       const sdf::MostOff* allowed) {
     MeshDistance result;
+    const sdf::TapeAt short_tape(tape, lattice, bound_holds);
     const sdf::BrickList bricks = sdf::findBricks(tape, lattice, bound_holds);
-    meshToSurface(mesh, sdf::TapeAt(tape, lattice, bricks), result);
+    meshToSurface(mesh, short_tape, allowed, result);
     Triangles triangles;
     for (const sdf::Triangle& t : mesh.triangles)
         triangles.emplace_back(point(mesh.position_world[t[0]]), point(mesh.position_world[t[1]]),
                                point(mesh.position_world[t[2]]));
-    SurfaceToMesh ask(triangles, lattice, per_cell, result);
+    SurfaceToMesh ask(triangles, short_tape, lattice, per_cell, allowed, result);
     ask.slope(bound_holds ? tape.lipschitz : 1e6);
     for (const sdf::Brick& brick : bricks.bricks) ask.brick(brick);
     result.surface_spacing = std::sqrt(qualityOf(mesh).area / std::max<double>(1.0, result.surface_samples));
@@ -140,7 +154,7 @@ std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::
 }
 #else
 std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh&, const sdf::Tape&, const sdf::Lattice&, bool,
-                                       int) {
+                                       int, const sdf::MostOff*) {
     return std::nullopt;
 }
 #endif

@@ -98,7 +98,7 @@ TEST(FieldMesh, ABallsSilhouetteIsItsEllipse) {
     sdf::Tree& tree = picture.field->tree;
     tree.root = at(tree, centre, tree.add(Kind::kSphere, {0.8}));
     const FieldMesh mesh = meshForFilm(parseMethod("nsaa"), picture.input());
-    EXPECT_LE(mesh.report.errorPx(), kBar);
+    EXPECT_LE(mesh.report.error_px, kBar);
     const BallOutline truth{glm::dvec3(picture.camera.camera_from_world * glm::dvec4(centre, 1.0)),
                             0.8,
                             36.0 / std::tan(glm::radians(18.0)),
@@ -119,7 +119,7 @@ TEST(FieldMesh, ABallsSilhouetteIsItsEllipse) {
     std::printf("sphere %.4f px, mesh %.4f px off the ellipse; %.4f and %.4f px between them, %zu points\n",
                 worst_field, worst_mesh, both.first_to_second_px, both.second_to_first_px, both.first_points);
     EXPECT_GT(both.first_points, 100u);
-    EXPECT_LE(worst_mesh, mesh.report.errorPx());
+    EXPECT_LE(worst_mesh, mesh.report.error_px);
     EXPECT_LE(both.worst(), kBar);
     EXPECT_LE(both.worst(), worst_field + worst_mesh + 0.01);
 }
@@ -148,7 +148,7 @@ TEST(FieldMesh, NsaaCoversWhatTheEllipseCovers) {
     const double radius = 32.0 / std::tan(glm::radians(18.0)) * sine / std::sqrt(1.0 - sine * sine);
     // A border that is off by no more than the mesh is.
     EXPECT_NEAR(area, glm::pi<double>() * radius * radius,
-                2.0 * glm::pi<double>() * radius * made.mesh->errorPx());
+                2.0 * glm::pi<double>() * radius * made.mesh->error_px);
 }
 
 double difference(const ImageBuffer& a, glm::ivec2 p, const ImageBuffer& b, glm::ivec2 q) {
@@ -238,7 +238,7 @@ TEST(FieldMesh, IsAsFineAsItIsAskedFor) {
     std::size_t before = 0;
     for (const char* method : {"mesh:error=0.4+nsaa", "mesh:error=0.1+nsaa", "mesh:error=0.025+nsaa"}) {
         const MeshReport report = meshForFilm(parseMethod(method), picture.input()).report;
-        EXPECT_LE(report.errorPx(), 1.05 * parseMethod(method).mesh->error_px) << method;
+        EXPECT_LE(report.error_px, 1.05 * parseMethod(method).mesh->error_px) << method;
         EXPECT_GT(report.triangles, before) << method;
         before = report.triangles;
     }

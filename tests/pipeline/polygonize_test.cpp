@@ -249,7 +249,7 @@ TEST(Polygonize, CellsOfManySizesMeetWithoutSeams) {
             for (std::uint32_t b = 0, count = std::uint32_t(bricks.bricks.size()); b < count; ++b)
                 if (!bricks.bricks[b].divided && random() % 4 == 0)
                     sdf::divideBrick(tape, lattice, true, b, bricks);
-        const sdf::DualComplex complex = sdf::dualComplex({tape, lattice}, std::move(bricks));
+        const sdf::DualComplex complex = sdf::dualComplex({tape, lattice}, sdf::TapeAt(tape, lattice, true), std::move(bricks));
         // Polygons as they are, closed: each side is another's, the other way round.
         for (std::uint32_t p = 0; p < complex.polygons.size(); ++p) {
             const sdf::DualPolygon& polygon = complex.polygons[p];
