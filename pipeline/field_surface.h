@@ -26,8 +26,8 @@ struct TriangleLook {
 /// are traced through the field.
 class FieldSurface : public PointShader {
   public:
-    /// `field`: without closed forms beside its tree. `most_off_px`: the mesh is no further from the surface, in
-    /// the film's pixels.
+    /// `field`: without closed forms beside its tree. `most_off_px`: the mesh is no further from the surface,
+    /// in the film's pixels.
     FieldSurface(sdf::FieldScene field, sdf::ShadingSettings shading, const sdf::RayGrid& grid,
                  const FilmFootprint& footprint, double most_off_px);
 

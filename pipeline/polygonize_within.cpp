@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/error.h"
 #include "sdf/field_scene.h"
@@ -25,6 +26,18 @@ constexpr double kLess = 0.7;
                            worst.z, made.lattice.step, sdf::kMostLevels));
 }
 
+/// Before all tries: it cannot be met.
+[[noreturn]] void failSoon(const std::string& amount, const std::string& asked, const Polygonized& made,
+                           const MeshDistance& distance) {
+    const double needed = made.counts.bricks_needed;
+    throw FailureError(
+        asked, fmt::format("{} is not met: {} is reached with cells of {}, and smaller ones would {}", amount,
+                           std::max(distance.mesh_to_surface, distance.surface_to_mesh), made.lattice.step,
+                           std::isfinite(needed)
+                               ? fmt::format("not fit into memory (at least {:.2g} bricks of them)", needed)
+                               : fmt::format("have to be divided more than {} times", sdf::kMostLevels)));
+}
+
 }  // namespace
 
 std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene,
@@ -43,6 +56,7 @@ MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& a
         const std::optional<MeshDistance> distance = measuredDistance(made, scene, &most_off);
         if (!distance) throw FailureError(asked, "this build has no CGAL to measure it with");
         if (distance->worst_part <= 1.0) return {std::move(made), *distance};
+        if (made.counts.bricks_needed > 0.0) failSoon(amount, asked, made, *distance);
         if (n == kTries || options.resolution > sdf::kMostResolution / 2)
             fail(amount, asked, made, *distance);
         options.most_off = options.most_off->times(kLess);

@@ -23,10 +23,10 @@ struct MeasuredMesh {
 };
 
 /// Asks for less each time, with smaller cells at last, until what is measured is within what is allowed.
-/// `between`, called after each try, may throw. `amount`: most_off in words. Throws FailureError naming `asked` where that is not reached,
-/// and in a build that cannot measure it.
+/// `between`, called after each try, may throw. `amount`: most_off in words. Throws FailureError naming
+/// `asked` where that is not reached, and in a build that cannot measure it.
 MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
-                              const std::string& asked, const Scene& scene,
-                              PolygonizeOptions options, const std::function<void()>& between = {});
+                              const std::string& asked, const Scene& scene, PolygonizeOptions options,
+                              const std::function<void()>& between = {});
 
 }  // namespace edgewise

@@ -198,9 +198,9 @@ class Builder {
         if (mixed)
             vertex.middle_world = glm::clamp(vertex.middle_world, lattice_.corner(cell.low) + kRim * side,
                                              lattice_.corner(cell.low + cell.side) - kRim * side);
-        const FeaturePoint point = featurePoint(
-            tape_, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
-            vertex.middle_world, side);
+        const FeaturePoint point =
+            featurePoint(tape_, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
+                         vertex.middle_world, side);
         vertex.target_world = point.place_world, vertex.rank = static_cast<std::uint8_t>(point.rank);
         vertex.cell = cell, vertex.brick = b;
         vertex.loops = static_cast<std::uint8_t>(std::min(loops, 255)), vertex.mixed = mixed;

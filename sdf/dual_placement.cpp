@@ -38,8 +38,7 @@ glm::dvec3 DualPlacement::heldInCell(const DualVertex& v, const glm::dvec3& targ
 }
 
 glm::dvec3 DualPlacement::heldOnSurface(const DualVertex& v) const {
-    const glm::dvec3 held = heldInCell(v, v.target_world),
-                     moved = onSurface(tape_, held);
+    const glm::dvec3 held = heldInCell(v, v.target_world), moved = onSurface(tape_, held);
     return inOwnCell(v, moved) ? moved : heldInCell(v, moved);
 }
 

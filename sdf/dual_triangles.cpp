@@ -272,7 +272,8 @@ class Triangulation {
 
 }  // namespace
 
-SurfaceMesh dualTriangles(const Lattice& lattice, const TapeAt& tape, DualComplex& complex, std::uint64_t& mended) {
+SurfaceMesh dualTriangles(const Lattice& lattice, const TapeAt& tape, DualComplex& complex,
+                          std::uint64_t& mended) {
     return Triangulation(lattice, tape, complex, mended).run();
 }
 

@@ -22,8 +22,7 @@ std::size_t WedgeCorners::turnIn(const Brick& brick, BrickCrossings& crossings) 
     for (int n = 0; n < BrickCrossings::kCorners; ++n) {
         const glm::ivec3 place(n % kSide, n / kSide % kSide, n / (kSide * kSide));
         const double value = crossings.value(place);
-        if (std::abs(value) < 0.5 * cell * request_.tape.lipschitz &&
-            isThin(brick.unitsOf(place), value))
+        if (std::abs(value) < 0.5 * cell * request_.tape.lipschitz && isThin(brick.unitsOf(place), value))
             crossings.turn(place), ++count;
     }
     return count;

@@ -1,8 +1,13 @@
 #include "sdf/mesh_check.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
 
 #include "sdf/evaluate.h"
 #include "sdf/mesh_feature.h"
@@ -30,12 +35,25 @@ class Check {
           tree_(mesh.position_world, mesh.triangles) {}
 
     std::vector<PlaceOff> run() {
-        for (const Triangle& t : mesh_.triangles) takeTriangle(t);
-        for (const DualPolygon& p : complex_.polygons)
-            if (!p.made) takePlace(p.brick, p.crossing.point);
-        for (std::uint32_t b = 0; b < complex_.bricks.bricks.size(); ++b)
-            if (!complex_.bricks.bricks[b].divided) takeBrick(b);
-        return std::move(off_);
+        const auto each = [this](std::size_t count, const auto& take) {
+            tbb::parallel_for(std::size_t(0), count, take);
+        };
+        each(mesh_.triangles.size(), [&](std::size_t t) { takeTriangle(mesh_.triangles[t]); });
+        each(complex_.polygons.size(), [&](std::size_t p) {
+            const DualPolygon& polygon = complex_.polygons[p];
+            if (!polygon.made) takePlace(polygon.brick, polygon.crossing.point);
+        });
+        each(complex_.bricks.bricks.size(), [&](std::size_t b) {
+            if (!complex_.bricks.bricks[b].divided) takeBrick(static_cast<std::uint32_t>(b));
+        });
+        std::vector<PlaceOff> all;
+        for (const std::vector<PlaceOff>& part : off_) all.insert(all.end(), part.begin(), part.end());
+        // Whoever found them.
+        std::sort(all.begin(), all.end(), [](const PlaceOff& x, const PlaceOff& y) {
+            return std::tie(x.place_world.x, x.place_world.y, x.place_world.z, x.halved) <
+                   std::tie(y.place_world.x, y.place_world.y, y.place_world.z, y.halved);
+        });
+        return all;
     }
 
   private:
@@ -47,8 +65,9 @@ class Check {
 
     /// What a cell's size does to the mesh is about as large as it.
     void add(const glm::dvec3& p, std::uint32_t b, double times_limit) {
-        const int halved = times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
-        off_.push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved)});
+        const int halved = request_.most_off ? 1 : times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
+        off_.local().push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved),
+                                sharp_.at(p) ? 1.0 : times_limit});
     }
     std::uint32_t brickAt(const glm::dvec3& p) const {
         return complex_.bricks.leafAt(lattice_, lattice_.unitAt(p)).brick;
@@ -117,15 +136,32 @@ class Check {
     const MeshLimits limits_;
     const TapeAt& tape_;
     const TriangleTree tree_;
-    std::vector<PlaceOff> off_;
+    tbb::enumerable_thread_specific<std::vector<PlaceOff>> off_;
 };
 
 }  // namespace
 
-std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
-                                const TapeAt& tape, const DualComplex& complex, const SharpCells& sharp,
+std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request, const TapeAt& tape,
+                                const DualComplex& complex, const SharpCells& sharp,
                                 const MeshLimits& limits) {
     return Check(mesh, request, tape, complex, sharp, limits).run();
+}
+
+double bricksNeeded(const std::vector<PlaceOff>& places, const MeshRequest& request,
+                    const BrickList& bricks) {
+    std::map<std::uint32_t, double> worst;
+    for (const PlaceOff& off : places) {
+        double& times = worst[bricks.leafAt(request.lattice, request.lattice.unitAt(off.place_world)).brick];
+        times = std::max(times, off.times_limit);
+    }
+    double needed = static_cast<double>(bricks.bricks.size());
+    for (const auto& [brick, times] : worst) {
+        if (brick == kNoBrick) continue;
+        const double halved = std::max(std::ceil(0.5 * std::log2(times)) - 1.0, 0.0);
+        if (bricks.bricks[brick].level + halved > kMostLevels) return HUGE_VAL;
+        needed += std::exp2(2.0 * halved) - 1.0;
+    }
+    return needed;
 }
 
 std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, std::size_t most_bricks,

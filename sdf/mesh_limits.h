@@ -43,6 +43,11 @@ class SharpCells {
         const std::uint32_t brick = bricks_.leafAt(lattice_, unit).brick;
         return brick == kNoBrick || (any_[brick] && sharp_[brick].test(placeOf(brick, unit)));
     }
+    /// How many there are, and the one at a place, or kNoBrick.
+    std::uint32_t bricks() const { return static_cast<std::uint32_t>(sharp_.size()); }
+    std::uint32_t brickAt(const glm::dvec3& p_world) const {
+        return bricks_.leafAt(lattice_, lattice_.unitAt(p_world)).brick;
+    }
     /// Of the cells around a place.
     double sideAt(const glm::dvec3& p_world) const {
         return lattice_.step / (1 << bricks_.leafAt(lattice_, lattice_.unitAt(p_world)).level);

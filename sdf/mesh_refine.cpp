@@ -1,5 +1,8 @@
 #include "sdf/mesh_refine.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,6 +49,9 @@ constexpr double kFolded = 0.95;
 /// Of the way from its middle to a tip: where its sides are asked for; of the limit: they meet there.
 constexpr double kNear = 0.1, kByTip = 0.6, kOn = 1e-2;
 
+/// Edges off in a brick: more than a sharp edge or two through its cells have.
+constexpr std::uint32_t kMostInBrick = 16 * kBrickCells;
+
 constexpr int kMostShifts = 4, kMostStuck = 4;
 constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
 
@@ -67,18 +73,18 @@ struct Candidate {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp,
-            const MeshLimits& limits)
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp, const MeshLimits& limits)
         : edit_(mesh, meanSize(mesh)), tape_(tape), sharp_(sharp), limits_(limits) {}
 
-    std::size_t run() {
+    std::size_t run(std::vector<glm::dvec3>* left) {
         for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
         std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
         std::size_t budget = edit_.mesh().position_world.size();
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
             touched_.clear();
-            const std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            if (round == 0 && left) leaveToSmallerCells(candidates, *left);
             if (candidates.size() > budget) break;  // cells are too large for this surface
             budget -= candidates.size();
             for (const Candidate& c : candidates) improve(c);
@@ -103,8 +109,7 @@ class Refiner {
     double offBetween(const glm::dvec3& a, const glm::dvec3& b) const { return offAt(0.5 * (a + b)); }
 
     std::vector<Candidate> candidatesOf(const std::vector<std::uint32_t>& triangles, bool all) const {
-        std::vector<Candidate> found;
-        for (const std::uint32_t t : triangles)
+        const auto add = [&](std::uint32_t t, std::vector<Candidate>& found) {
             for (int i = 0; i < 3; ++i) {
                 std::uint32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
                 if (all && a > b) continue;  // the other triangle asks
@@ -112,12 +117,34 @@ class Refiner {
                 if (isStuck(a) || isStuck(b)) continue;
                 if (const double off = tooFarOff(a, b); off > 0.0) found.push_back({a, b, off});
             }
+        };
+        tbb::enumerable_thread_specific<std::vector<Candidate>> parts;
+        tbb::parallel_for(std::size_t(0), triangles.size(),
+                          [&](std::size_t n) { add(triangles[n], parts.local()); });
+        std::vector<Candidate> found;
+        for (const std::vector<Candidate>& part : parts) found.insert(found.end(), part.begin(), part.end());
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
         });
         const auto same = [](const Candidate& x, const Candidate& y) { return x.a == y.a && x.b == y.b; };
         found.erase(std::unique(found.begin(), found.end(), same), found.end());
         return found;
+    }
+    glm::dvec3 middleOf(const Candidate& c) const { return 0.5 * (at(c.a) + at(c.b)); }
+    /// Drops those in bricks where many edges are off.
+    void leaveToSmallerCells(std::vector<Candidate>& candidates, std::vector<glm::dvec3>& left) const {
+        std::vector<std::uint32_t> brick, count(sharp_.bricks() + 1, 0);
+        for (const Candidate& c : candidates) {
+            brick.push_back(std::min(sharp_.brickAt(middleOf(c)), sharp_.bricks()));
+            ++count[brick.back()];
+        }
+        std::size_t kept = 0;
+        for (std::size_t n = 0; n < candidates.size(); ++n)
+            if (count[brick[n]] <= kMostInBrick || brick[n] == sharp_.bricks())
+                candidates[kept++] = candidates[n];
+            else
+                left.push_back(middleOf(candidates[n]));
+        candidates.resize(kept);
     }
     /// How far an edge is off, or 0 where that is within its limit. A sharp edge is further away than the
     /// surface is: where planes meet at an angle of 2 beta, what is d from both on their middle is d /
@@ -223,8 +250,7 @@ class Refiner {
         return true;
     }
     void shiftBack(std::uint32_t v) {
-        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limitsAt(v).sharp)
-            shift(v);
+        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limitsAt(v).sharp) shift(v);
     }
     bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * sharp_.sideAt(at(v)) && shift(v); }
 
@@ -268,7 +294,8 @@ class Refiner {
             if (!(glm::distance(p, from) <= reach)) return;
             if (const double off = offWith(v, p); off < most) ways.push_back({off, p});
         };
-        if (!planes.empty()) attempt(featurePoint(tape_, planes, from, 0.5 * kReach * side_of_cell).place_world);
+        if (!planes.empty())
+            attempt(featurePoint(tape_, planes, from, 0.5 * kReach * side_of_cell).place_world);
         attempt(onSurface(tape_, from));
         if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
         for (const auto& [off, p] : ways)
@@ -378,7 +405,8 @@ class Refiner {
             sharp = true;
             attempt(point.place_world);
         }
-        if (!sharp && c.off > limits_.within(middle, 0.5 * glm::distance(a, b)).smooth) attempt(onSurface(tape_, middle));
+        if (!sharp && c.off > limits_.within(middle, 0.5 * glm::distance(a, b)).smooth)
+            attempt(onSurface(tape_, middle));
         std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
         return found;
     }
@@ -400,8 +428,8 @@ class Refiner {
 }  // namespace
 
 std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp,
-                       const MeshLimits& limits) {
-    return Refiner(mesh, tape, sharp, limits).run();
+                       const MeshLimits& limits, std::vector<glm::dvec3>* left) {
+    return Refiner(mesh, tape, sharp, limits).run(left);
 }
 
 }  // namespace edgewise::sdf

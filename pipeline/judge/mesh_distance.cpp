@@ -6,6 +6,8 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -32,6 +34,22 @@ constexpr double kPlaces[][3] = {{0.5, 0.5, 0.0},          {0.0, 0.5, 0.5},     
                                  {1 / 3., 1 / 3., 1 / 3.}, {4 / 6., 1 / 6., 1 / 6.}, {1 / 6., 4 / 6., 1 / 6.},
                                  {1 / 6., 1 / 6., 4 / 6.}};
 
+/// Each thread's own.
+using Found = tbb::enumerable_thread_specific<MeshDistance>;
+
+MeshDistance joined(const Found& found) {
+    MeshDistance all;
+    for (const MeshDistance& part : found) {
+        all.mesh_to_surface = std::max(all.mesh_to_surface, part.mesh_to_surface);
+        all.mesh_spacing = std::max(all.mesh_spacing, part.mesh_spacing);
+        all.worst_part = std::max(all.worst_part, part.worst_part);
+        all.mesh_samples += part.mesh_samples, all.surface_samples += part.surface_samples;
+        if (part.surface_to_mesh <= all.surface_to_mesh) continue;
+        all.surface_to_mesh = part.surface_to_mesh, all.worst_on_surface = part.worst_on_surface;
+    }
+    return all;
+}
+
 Kernel::Point_3 point(const glm::dvec3& p) {
     return {p.x, p.y, p.z};
 }
@@ -53,8 +71,10 @@ double toSurface(const sdf::TapeAt& tape, const glm::dvec3& from) {
 }
 
 void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const sdf::MostOff* allowed,
-                   MeshDistance& result) {
-    for (const sdf::Triangle& t : mesh.triangles) {
+                   Found& found) {
+    tbb::parallel_for(std::size_t(0), mesh.triangles.size(), [&](std::size_t n) {
+        MeshDistance& result = found.local();
+        const sdf::Triangle& t = mesh.triangles[n];
         const glm::dvec3 &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]],
                          &c = mesh.position_world[t[2]];
         // Every place of a triangle is within a third of its longest side of one that is asked.
@@ -69,7 +89,7 @@ void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const 
                     std::max(result.worst_part, distance / allowed->leastWithin(p, longest / 3.0));
         }
         result.mesh_samples += std::size(kPlaces);
-    }
+    });
 }
 
 /// Where the surface crosses a segment, if the signs at its ends differ.
@@ -88,12 +108,18 @@ bool crossing(const sdf::TapeAt& tape, glm::dvec3 inside, glm::dvec3 outside, gl
 class SurfaceToMesh {
   public:
     SurfaceToMesh(Triangles& triangles, const sdf::TapeAt& tape, const sdf::Lattice& lattice, int per_cell,
-                  const sdf::MostOff* allowed, MeshDistance& result)
-        : tree_(triangles.begin(), triangles.end()), tape_(tape), lattice_(lattice), per_cell_(per_cell), allowed_(allowed), result_(result) {
+                  const sdf::MostOff* allowed)
+        : tree_(triangles.begin(), triangles.end()),
+          tape_(tape),
+          lattice_(lattice),
+          per_cell_(per_cell),
+          allowed_(allowed) {
         tree_.build();
     }
 
-    void brick(const sdf::Brick& brick) {
+    /// `seed`: of its lines.
+    void brick(const sdf::Brick& brick, std::uint64_t seed, MeshDistance& result) const {
+        std::mt19937_64 random(seed);
         constexpr int kSide = sdf::kBrickCells;
         for (int n = 0; n < kSide * kSide * kSide; ++n) {
             const glm::dvec3 low =
@@ -101,26 +127,26 @@ class SurfaceToMesh {
             const glm::dvec3 centre = low + 0.5 * lattice_.step;
             const double value = sdf::valueAt(tape_(centre), centre);
             if (std::abs(value) > 1.75 * lattice_.step * slope_) continue;
-            for (int line = 0; line < per_cell_; ++line) ask(low);
+            for (int line = 0; line < per_cell_; ++line) ask(low, random, result);
         }
     }
     void slope(double most) { slope_ = std::max(most, 1e-3); }
 
   private:
     /// On a line of about a cell's length, its middle anywhere in the cell.
-    void ask(const glm::dvec3& low) {
+    void ask(const glm::dvec3& low, std::mt19937_64& random, MeshDistance& result) const {
         std::uniform_real_distribution<double> at(0.0, 1.0), side(-1.0, 1.0);
-        const glm::dvec3 middle = low + lattice_.step * glm::dvec3(at(random_), at(random_), at(random_));
-        glm::dvec3 along(side(random_), side(random_), side(random_));
+        const glm::dvec3 middle = low + lattice_.step * glm::dvec3(at(random), at(random), at(random));
+        glm::dvec3 along(side(random), side(random), side(random));
         along *= lattice_.step / std::max(glm::length(along), 0.1);
         glm::dvec3 place;
         if (!crossing(tape_, middle - along, middle + along, place)) return;
-        ++result_.surface_samples;
+        ++result.surface_samples;
         const double distance = std::sqrt(tree_.squared_distance(point(place)));
-        if (allowed_) result_.worst_part = std::max(result_.worst_part, distance / allowed_->at(place));
-        if (distance <= result_.surface_to_mesh) return;
-        result_.surface_to_mesh = distance;
-        result_.worst_on_surface = place;
+        if (allowed_) result.worst_part = std::max(result.worst_part, distance / allowed_->at(place));
+        if (distance <= result.surface_to_mesh) return;
+        result.surface_to_mesh = distance;
+        result.worst_on_surface = place;
     }
 
     Tree tree_;
@@ -128,9 +154,7 @@ class SurfaceToMesh {
     const sdf::Lattice& lattice_;
     const int per_cell_;
     const sdf::MostOff* const allowed_;
-    MeshDistance& result_;
     double slope_ = 1.0;
-    std::mt19937_64 random_{1};
 };
 
 }  // namespace
@@ -138,17 +162,19 @@ class SurfaceToMesh {
 std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::Tape& tape,
                                        const sdf::Lattice& lattice, bool bound_holds, int per_cell,
                                        const sdf::MostOff* allowed) {
-    MeshDistance result;
+    Found found;
     const sdf::TapeAt short_tape(tape, lattice, bound_holds);
     const sdf::BrickList bricks = sdf::findBricks(tape, lattice, bound_holds);
-    meshToSurface(mesh, short_tape, allowed, result);
+    meshToSurface(mesh, short_tape, allowed, found);
     Triangles triangles;
     for (const sdf::Triangle& t : mesh.triangles)
         triangles.emplace_back(point(mesh.position_world[t[0]]), point(mesh.position_world[t[1]]),
                                point(mesh.position_world[t[2]]));
-    SurfaceToMesh ask(triangles, short_tape, lattice, per_cell, allowed, result);
+    SurfaceToMesh ask(triangles, short_tape, lattice, per_cell, allowed);
     ask.slope(bound_holds ? tape.lipschitz : 1e6);
-    for (const sdf::Brick& brick : bricks.bricks) ask.brick(brick);
+    tbb::parallel_for(std::size_t(0), bricks.bricks.size(),
+                      [&](std::size_t b) { ask.brick(bricks.bricks[b], b, found.local()); });
+    MeshDistance result = joined(found);
     result.surface_spacing = std::sqrt(qualityOf(mesh).area / std::max<double>(1.0, result.surface_samples));
     return result;
 }

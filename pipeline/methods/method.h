@@ -86,10 +86,10 @@ struct MeshChoice {
 /// The mesh that a triangle method was given in the place of an SDF scene.
 struct MeshReport {
     std::string mesher;
-    std::size_t triangles = 0;     ///< beside planes
-    double pixel_world = 0.0;      ///< a pixel where the mesh is closest to the eye, in world units; 0: unseen
-    double asked_px = 0.0;         ///< how far mesh and surface may be apart
-    double error_px = 0.0;         ///< measured, by the pixels of each place
+    std::size_t triangles = 0;  ///< beside planes
+    double pixel_world = 0.0;   ///< a pixel where the mesh is closest to the eye, in world units; 0: unseen
+    double asked_px = 0.0;      ///< how far mesh and surface may be apart
+    double error_px = 0.0;      ///< measured, by the pixels of each place
     double mesh_to_surface = 0.0;  ///< measured in world units, also where nothing is seen
     double surface_to_mesh = 0.0;
     double cell_world = 0.0;  ///< of the mesher's lattice
