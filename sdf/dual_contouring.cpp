@@ -87,7 +87,7 @@ class DualContouring {
         off_.clear();
         const bool may_divide = round < rounds_ && complex.bricks.bricks.size() < most_bricks_;
         std::vector<glm::dvec3> left;
-        counts_.added = refineMesh(mesh_, tape_, sharp, limits_.middle,
+        counts_.added = refineMesh(mesh_, tape_, request_.lattice.step, sharp, limits_.middle,
                                    request_.most_off && may_divide ? &left : nullptr);
         if (may_divide) off_ = placesOff(mesh_, request_, tape_, complex, sharp, limits_.most);
         for (const glm::dvec3& p : left)

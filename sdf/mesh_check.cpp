@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <tuple>
 
 #include "sdf/evaluate.h"
 #include "sdf/mesh_feature.h"
@@ -17,6 +16,7 @@
 namespace edgewise::sdf {
 namespace {
 
+constexpr std::size_t kChunk = 64;
 constexpr int kPlaces = kBrickCells * kBrickCells * kBrickCells;
 /// Of a cell's side: a place counts as one on the surface.
 constexpr double kOnSurface = 1e-6;
@@ -35,8 +35,15 @@ class Check {
           tree_(mesh.position_world, mesh.triangles) {}
 
     std::vector<PlaceOff> run() {
-        const auto each = [this](std::size_t count, const auto& take) {
-            tbb::parallel_for(std::size_t(0), count, take);
+        std::vector<PlaceOff> all;
+        // By chunks, whose finds are joined in order: as one thread would find them.
+        const auto each = [&](std::size_t count, const auto& take) {
+            std::vector<std::vector<PlaceOff>> parts((count + kChunk - 1) / kChunk);
+            tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
+                for (std::size_t n = part * kChunk; n < std::min(count, (part + 1) * kChunk); ++n) take(n);
+                parts[part].swap(off_.local());
+            });
+            for (const std::vector<PlaceOff>& part : parts) all.insert(all.end(), part.begin(), part.end());
         };
         each(mesh_.triangles.size(), [&](std::size_t t) { takeTriangle(mesh_.triangles[t]); });
         each(complex_.polygons.size(), [&](std::size_t p) {
@@ -45,13 +52,6 @@ class Check {
         });
         each(complex_.bricks.bricks.size(), [&](std::size_t b) {
             if (!complex_.bricks.bricks[b].divided) takeBrick(static_cast<std::uint32_t>(b));
-        });
-        std::vector<PlaceOff> all;
-        for (const std::vector<PlaceOff>& part : off_) all.insert(all.end(), part.begin(), part.end());
-        // Whoever found them.
-        std::sort(all.begin(), all.end(), [](const PlaceOff& x, const PlaceOff& y) {
-            return std::tie(x.place_world.x, x.place_world.y, x.place_world.z, x.halved) <
-                   std::tie(y.place_world.x, y.place_world.y, y.place_world.z, y.halved);
         });
         return all;
     }
@@ -76,7 +76,10 @@ class Check {
     void takeTriangle(const Triangle& t) {
         const auto at = [&](int i) { return mesh_.position_world[t[i % 3]]; };
         const glm::dvec3 centre = (at(0) + at(1) + at(2)) / 3.0;
-        takeMeshPlace(centre, glm::distance(centre, at(0)), t);
+        takeMeshPlace(centre,
+                      std::max({glm::distance(centre, at(0)), glm::distance(centre, at(1)),
+                                glm::distance(centre, at(2))}),
+                      t);
         for (int i = 0; i < 3; ++i)
             if (t[i] < t[(i + 1) % 3])
                 takeMeshPlace(0.5 * (at(i) + at(i + 1)), 0.5 * glm::distance(at(i), at(i + 1)), t);

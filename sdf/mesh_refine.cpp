@@ -73,8 +73,9 @@ struct Candidate {
 
 class Refiner {
   public:
-    Refiner(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp, const MeshLimits& limits)
-        : edit_(mesh, meanSize(mesh)), tape_(tape), sharp_(sharp), limits_(limits) {}
+    Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
+            const MeshLimits& limits)
+        : edit_(mesh, meanSize(mesh)), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
 
     std::size_t run(std::vector<glm::dvec3>* left) {
         for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
@@ -105,6 +106,8 @@ class Refiner {
     const glm::dvec3& at(std::uint32_t v) const { return edit_.at(v); }
     const Triangle& triangle(std::uint32_t t) const { return edit_.mesh().triangles[t]; }
     double offAt(const glm::dvec3& p) const { return std::abs(valueAt(tape_(p), p)); }
+    /// Cells are smaller where they were divided for a distance.
+    double sideAt(const glm::dvec3& p) const { return limits_.most_off ? sharp_.sideAt(p) : step_; }
     MeshLimits limitsAt(std::uint32_t v) const { return limits_.within(at(v), 0.0); }
     double offBetween(const glm::dvec3& a, const glm::dvec3& b) const { return offAt(0.5 * (a + b)); }
 
@@ -151,14 +154,14 @@ class Refiner {
     /// sin(beta) from their line, and what is on one of them is not off at all.
     double tooFarOff(std::uint32_t a, std::uint32_t b) const {
         const glm::dvec3 middle = 0.5 * (at(a) + at(b));
-        const double length = glm::distance(at(a), at(b)), side = sharp_.sideAt(middle);
+        const double length = glm::distance(at(a), at(b)), side = sideAt(middle);
         if (length < kShortest * side) return 0.0;
         const MeshLimits limits = limits_.within(middle, 0.5 * length);
         const double off = limits_.most_off ? distanceBy(tape_, middle, limits.smooth) : offAt(middle);
         Diamond d;
         if (off > limits.smooth || !edit_.diamondOf(a, b, d)) return off > limits.smooth ? off : 0.0;
         if (isFolded(d)) {
-            const double far = std::max(off, sharpEdgeFrom(d, side, limits.sharp));
+            const double far = std::max(off, sharpEdgeFrom(d, limits.sharp));
             return far > limits.sharp ? far : 0.0;
         }
         if (off <= kNarrowest * limits.sharp) return 0.0;
@@ -176,7 +179,7 @@ class Refiner {
         return glm::cross(at(b) - at(a), at(c) - at(a));
     }
     /// From its middle to the sharp edge of its two sides.
-    double sharpEdgeFrom(const Diamond& d, double side, double limit) const {
+    double sharpEdgeFrom(const Diamond& d, double limit) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
         const auto offTowards = [&](std::uint32_t tip) { return offAt(middle + kNear * (at(tip) - middle)); };
         if (std::max(offTowards(d.tips[0]), offTowards(d.tips[1])) < kOn * limit) return 0.0;
@@ -184,7 +187,7 @@ class Refiner {
         for (const std::uint32_t v : {d.a, d.b, d.tips[0], d.tips[1]})
             addPlane(tape_, middle + kByTip * (at(v) - middle), planes);
         if (planes.empty()) return 0.0;
-        const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * side);
+        const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * step_);
         return point.rank < 2 ? 0.0 : glm::distance(point.place_world, middle);
     }
     double halfAngleSine(const Diamond& d) const {
@@ -252,7 +255,7 @@ class Refiner {
     void shiftBack(std::uint32_t v) {
         if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limitsAt(v).sharp) shift(v);
     }
-    bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * sharp_.sideAt(at(v)) && shift(v); }
+    bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * sideAt(at(v)) && shift(v); }
 
     /// How far the triangles around a vertex would be off the surface with it there.
     double offWith(std::uint32_t v, const glm::dvec3& p) const {
@@ -280,8 +283,7 @@ class Refiner {
         if (tooOften(v, shifts_)) return false;
         const glm::dvec3 from = at(v);
         const double most = kGain * offWith(v, from);
-        const double side_of_cell = sharp_.sideAt(from);
-        double reach = kReach * side_of_cell;
+        double reach = kReach * step_;
         std::vector<TangentPlane> planes;
         for (const std::uint32_t t : edit_.around(v)) {
             const glm::dvec3 side = at(othersOf(triangle(t), v)[0]) - from;
@@ -294,8 +296,7 @@ class Refiner {
             if (!(glm::distance(p, from) <= reach)) return;
             if (const double off = offWith(v, p); off < most) ways.push_back({off, p});
         };
-        if (!planes.empty())
-            attempt(featurePoint(tape_, planes, from, 0.5 * kReach * side_of_cell).place_world);
+        if (!planes.empty()) attempt(featurePoint(tape_, planes, from, 0.5 * kReach * step_).place_world);
         attempt(onSurface(tape_, from));
         if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
         for (const auto& [off, p] : ways)
@@ -349,7 +350,7 @@ class Refiner {
     /// The other diagonal is nearer to the surface, and makes no slivers.
     bool shouldTurn(const Diamond& d) const {
         const auto [p, q] = d.tips;
-        const double least = kLeastHeight * sharp_.sideAt(0.5 * (at(d.a) + at(d.b)));
+        const double least = kLeastHeight * sideAt(0.5 * (at(d.a) + at(d.b)));
         if (heightOf(d.a, p, q) < least || heightOf(d.b, p, q) < least) return false;
         const double now = std::max({offBetween(at(d.a), at(d.b)), offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
         const double then = std::max({offBetween(at(p), at(q)), offOf(d.a, p, q), offOf(d.b, p, q)});
@@ -389,8 +390,7 @@ class Refiner {
             attempt(onSurface(tape_, middle));
             if (!found.empty() || even) return found;
         }
-        const double side = sharp_.sideAt(middle);
-        reach = std::max(reach, kReach * side);
+        reach = std::max(reach, kReach * step_);
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
         // Of the whole neighbourhood, and of the ends alone: the edge may be passed close to one of them.
@@ -400,7 +400,7 @@ class Refiner {
             for (int end = 0; end < count; ++end)
                 for (const double part : parts) addPlane(tape_, middle + part * (ends[end] - middle), planes);
             if (planes.empty()) continue;
-            const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * side);
+            const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * step_);
             if (point.rank < 2) continue;
             sharp = true;
             attempt(point.place_world);
@@ -418,6 +418,7 @@ class Refiner {
 
     MeshEdit edit_;
     const TapeAt& tape_;
+    const double step_;
     const SharpCells& sharp_;
     const MeshLimits limits_;
     std::size_t added_ = 0;
@@ -427,9 +428,9 @@ class Refiner {
 
 }  // namespace
 
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp,
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits, std::vector<glm::dvec3>* left) {
-    return Refiner(mesh, tape, sharp, limits).run(left);
+    return Refiner(mesh, tape, step, sharp, limits).run(left);
 }
 
 }  // namespace edgewise::sdf

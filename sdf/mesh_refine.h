@@ -13,7 +13,7 @@ namespace edgewise::sdf {
 /// through itself no more than before. `left`: gets places
 /// in bricks where so many edges are off that smaller cells are the way; none: nothing is left to them. Gives
 /// how many were added. Of materials and normals none are kept.
-std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, const SharpCells& sharp,
+std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
                        const MeshLimits& limits, std::vector<glm::dvec3>* left = nullptr);
 
 }  // namespace edgewise::sdf

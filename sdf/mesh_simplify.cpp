@@ -146,7 +146,12 @@ class Simplifier {
             std::replace(t.begin(), t.end(), v, u);
             fan_.push_back(t);
             const glm::dvec3 centre = (at(t[0]) + at(t[1]) + at(t[2])) / 3.0;
-            if (isOff(centre, limitFor(centre, glm::distance(centre, at(u)), smooth))) return false;
+            if (isOff(centre,
+                      limitFor(centre,
+                               std::max({glm::distance(centre, at(t[0])), glm::distance(centre, at(t[1])),
+                                         glm::distance(centre, at(t[2]))}),
+                               smooth)))
+                return false;
         }
         for (const std::uint32_t w : neighbours_)
             if (const glm::dvec3 middle = 0.5 * (at(u) + at(w));
