@@ -24,7 +24,7 @@ constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
 constexpr int kRounds = 2;
 constexpr double kMostOffBricks = 0.2;
 /// The same three of a distance that is asked for.
-constexpr double kMiddlePart = 0.5, kOffPart = 0.85, kThinPart = 0.6, kSharpThinPart = 0.4;
+constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6, kSharpThinPart = 0.4;
 
 SharpCells sharpCells(const Lattice& lattice, const DualComplex& complex) {
     SharpCells sharp(lattice, complex.bricks);

@@ -65,7 +65,7 @@ class Check {
 
     /// What a cell's size does to the mesh is about as large as it.
     void add(const glm::dvec3& p, std::uint32_t b, double times_limit) {
-        const int halved = request_.most_off ? 1 : times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
+        const int halved = times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
         off_.local().push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved),
                                 sharp_.at(p) ? 1.0 : times_limit});
     }
