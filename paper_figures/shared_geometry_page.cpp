@@ -53,11 +53,11 @@ std::string scenesTable(const SharedGeometry& found) {
         const compare::MeshLevel &first = reference.levels.front(), &last = reference.levels.back();
         rows += fmt::format("<tr><td>{}</td>", escapedHtml(scene.scene)) +
                 number(static_cast<double>(first.mesh.triangles), "{:.0f}") +
-                number(first.mesh.errorPx(), "{:.3f}") + number(first.mesh.seconds, "{:.1f}") +
+                number(first.mesh.error_px, "{:.3f}") + number(first.mesh.seconds, "{:.1f}") +
                 number(reference.silhouette_there_px, "{:.3f}") +
                 number(reference.silhouette_back_px, "{:.3f}") +
                 number(static_cast<double>(last.mesh.triangles), "{:.0f}") +
-                number(last.mesh.errorPx(), "{:.3f}") + number(last.left ? last.left->rmse : 0.0, "{:.2e}") +
+                number(last.mesh.error_px, "{:.3f}") + number(last.left ? last.left->rmse : 0.0, "{:.2e}") +
                 "</tr>\n";
     }
     return table(
@@ -182,7 +182,7 @@ std::string sharedGeometryCsv(const SharedGeometry& found) {
             out +=
                 fmt::format("{},{},{},{},{}\n", compare::csvText(scene.scene), compare::csvFields(row),
                             text(row.reference_error), text(row.antialiasing),
-                            row.mesh ? fmt::format("{},{}", row.mesh->triangles, row.mesh->errorPx()) : ",");
+                            row.mesh ? fmt::format("{},{}", row.mesh->triangles, row.mesh->error_px) : ",");
     return out;
 }
 

@@ -90,7 +90,7 @@ sdf::SurfaceMesh cgalMesh(const sdf::MeshRequest& request, const std::string& so
     requireSmooth(cells, source);
     if (cells.polygons.empty()) return {};
     const sdf::Lattice& lattice = request.lattice;
-    const sdf::TapeAt tape(request.tape, lattice, cells.bricks);
+    const sdf::TapeAt tape(request.tape, lattice, request.bound_holds);
     std::uint64_t left = kMostValues * cells.polygons.size();
     const auto value = [&](const Point& p) {
         if (left-- == 0)

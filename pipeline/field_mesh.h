@@ -6,9 +6,10 @@
 
 namespace edgewise {
 
-/// The scene's mesh, its distance from the surface within spec.mesh's `error_px` of a pixel where the surface
-/// is closest to the eye. Half-spaces that are united with the rest are discs that end where rays do; closed
-/// forms are parts of the tree. Depends on the whole film, not on its crop.
+/// The scene's mesh, its distance from the surface within spec.mesh's `error_px` of a pixel everywhere that
+/// the film sees, and as far around it as filters reach; what is not seen is coarse, and stays unseen.
+/// Half-spaces that are united with the rest are discs that end where rays do; closed forms are parts of the
+/// tree. Depends on the whole film, not on its crop.
 struct FieldMesh {
     Scene scene;
     MeshReport report;

@@ -25,13 +25,14 @@ bool castsRays(const sdf::ShadingSettings& shading) {
 }  // namespace
 
 FieldSurface::FieldSurface(sdf::FieldScene field, sdf::ShadingSettings shading, const sdf::RayGrid& grid,
-                           double most_off)
+                           const FilmFootprint& footprint, double most_off_px)
     : field_(std::move(field)),
       tape_(loweredTree(field_)),
       grid_(grid),
       tracer_(field_, tape_, trustedSettings(field_, {})),
       shader_(std::move(shading), tracer_),
-      most_off_(most_off),
+      footprint_(footprint),
+      most_off_px_(most_off_px),
       casts_rays_(castsRays(shader_.settings())) {}
 
 std::uint32_t FieldSurface::shapeAt(const glm::dvec3& p_world) const {
@@ -92,9 +93,11 @@ glm::dvec3 FieldSurface::color(const SeenPoint& point) const {
         hit.p_local = sdf::localAt(tape_, tape_.instructions[shape], p);
     }
     // Points that something hides may lie within it: no further above the surface than the mesh may be.
-    if (casts_rays_)
-        hit.value = std::clamp(sdf::valueAt(tracer_.cells().at(hit.p_world).tape, hit.p_world), -most_off_,
-                               most_off_);
+    if (casts_rays_) {
+        const double most_off = most_off_px_ * footprint_.pixelAt(hit.p_world);
+        hit.value =
+            std::clamp(sdf::valueAt(tracer_.cells().at(hit.p_world).tape, hit.p_world), -most_off, most_off);
+    }
     sdf::RayCounts counts;
     return glm::dvec3(shader_.shade(way.ray, hit, counts, way.sign));
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/film.h"
+#include "pipeline/film_footprint.h"
 #include "pipeline/point_shader.h"
 #include "sdf/field_scene.h"
 #include "sdf/ray_grid.h"
@@ -26,10 +26,10 @@ struct TriangleLook {
 /// are traced through the field.
 class FieldSurface : public PointShader {
   public:
-    /// `field`: without closed forms beside its tree. `most_off`: the mesh is no further from the surface, in
-    /// world units.
+    /// `field`: without closed forms beside its tree. `most_off_px`: the mesh is no further from the surface,
+    /// in the film's pixels.
     FieldSurface(sdf::FieldScene field, sdf::ShadingSettings shading, const sdf::RayGrid& grid,
-                 double most_off);
+                 const FilmFootprint& footprint, double most_off_px);
 
     /// A further triangle, in the order of the contract's index.
     void add(const TriangleLook& look) { looks_.push_back(look); }
@@ -53,7 +53,8 @@ class FieldSurface : public PointShader {
     const sdf::RayGrid grid_;
     const sdf::SceneTracer tracer_;
     const sdf::Shader shader_;
-    const double most_off_;
+    const FilmFootprint footprint_;
+    const double most_off_px_;
     const bool casts_rays_;
     std::vector<TriangleLook> looks_;
 };

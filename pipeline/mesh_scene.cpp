@@ -80,10 +80,9 @@ class MeshScene {
         sdf::ShadingSettings shading = shadingOf(whole_, {});
         shading.background = in_.options.background;
         if (whole_.lights.empty()) addDefaultRig(in_.camera, shading);
-        const MeshReport& report = polygons_.report;
         return std::make_shared<FieldSurface>(whole_, std::move(shading),
                                               rayGrid(in_.camera, in_.film, whole_.far),
-                                              std::max(report.mesh_to_surface, report.surface_to_mesh));
+                                              FilmFootprint(in_.camera, in_.film), polygons_.report.error_px);
     }
 
     void addMesh() {

@@ -23,7 +23,7 @@ struct PolygonizeOptions {
     int resolution = 128;  ///< cells along the box's longest side
     std::optional<WorldBox>
         box;  ///< where the surface is looked for; none: the scene's bounds and a little more
-    std::optional<double>
+    std::optional<sdf::MostOff>
         most_off;  ///< how far mesh and surface may be apart; dual contouring divides for it
 };
 

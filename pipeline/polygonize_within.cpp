@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/error.h"
 #include "sdf/field_scene.h"
@@ -15,36 +16,50 @@ constexpr int kLinesPerCell = 4;
 constexpr int kTries = 4;
 constexpr double kLess = 0.7;
 
-[[noreturn]] void fail(double max_error, const std::string& asked, const Polygonized& made,
+[[noreturn]] void fail(const std::string& amount, const std::string& asked, const Polygonized& made,
                        const MeshDistance& distance) {
     const glm::dvec3& worst = distance.worst_on_surface;
     throw FailureError(
         asked, fmt::format("{} is not met: {} from mesh to surface, {} back (near {},{},{}), with "
                            "cells of {} divided {} times at most",
-                           max_error, distance.mesh_to_surface, distance.surface_to_mesh, worst.x, worst.y,
+                           amount, distance.mesh_to_surface, distance.surface_to_mesh, worst.x, worst.y,
                            worst.z, made.lattice.step, sdf::kMostLevels));
+}
+
+/// Before all tries: it cannot be met.
+[[noreturn]] void failSoon(const std::string& amount, const std::string& asked, const Polygonized& made,
+                           const MeshDistance& distance) {
+    const double needed = made.counts.bricks_needed;
+    throw FailureError(
+        asked, fmt::format("{} is not met: {} is reached with cells of {}, and smaller ones would {}", amount,
+                           std::max(distance.mesh_to_surface, distance.surface_to_mesh), made.lattice.step,
+                           std::isfinite(needed)
+                               ? fmt::format("not fit into memory (at least {:.2g} bricks of them)", needed)
+                               : fmt::format("have to be divided more than {} times", sdf::kMostLevels)));
 }
 
 }  // namespace
 
-std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene) {
+std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene,
+                                             const sdf::MostOff* allowed) {
     return distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice, scene.field->bound_holds,
-                      kLinesPerCell);
+                      kLinesPerCell, allowed);
 }
 
-MeasuredMesh polygonizeWithin(double max_error, const std::string& asked, const Scene& scene,
-                              PolygonizeOptions options, const std::function<void()>& between) {
-    options.most_off = max_error;
+MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
+                              const std::string& asked, const Scene& scene, PolygonizeOptions options,
+                              const std::function<void()>& between) {
+    options.most_off = most_off;
     for (int n = 1;; ++n) {
         Polygonized made = polygonize(scene, options);
         if (between) between();
-        const std::optional<MeshDistance> distance = measuredDistance(made, scene);
+        const std::optional<MeshDistance> distance = measuredDistance(made, scene, &most_off);
         if (!distance) throw FailureError(asked, "this build has no CGAL to measure it with");
-        if (std::max(distance->mesh_to_surface, distance->surface_to_mesh) <= max_error)
-            return {std::move(made), *distance};
+        if (distance->worst_part <= 1.0) return {std::move(made), *distance};
+        if (made.counts.bricks_needed > 0.0) failSoon(amount, asked, made, *distance);
         if (n == kTries || options.resolution > sdf::kMostResolution / 2)
-            fail(max_error, asked, made, *distance);
-        *options.most_off *= kLess;
+            fail(amount, asked, made, *distance);
+        options.most_off = options.most_off->times(kLess);
         if (n > 1 || options.mesher != Mesher::kDual) options.resolution *= 2;
     }
 }

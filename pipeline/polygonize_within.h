@@ -14,17 +14,19 @@ namespace edgewise {
 inline constexpr int kFirstResolution = 64;
 
 /// None in a build without CGAL.
-std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene);
+std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene,
+                                             const sdf::MostOff* allowed = nullptr);
 
 struct MeasuredMesh {
     Polygonized made;
     MeshDistance distance;
 };
 
-/// Asks for less each time, with smaller cells at last, until what is measured is within the error.
-/// `between`, called after each try, may throw. Throws FailureError naming `asked` where that is not reached,
-/// and in a build that cannot measure it.
-MeasuredMesh polygonizeWithin(double max_error, const std::string& asked, const Scene& scene,
-                              PolygonizeOptions options, const std::function<void()>& between = {});
+/// Asks for less each time, with smaller cells at last, until what is measured is within what is allowed.
+/// `between`, called after each try, may throw. `amount`: most_off in words. Throws FailureError naming
+/// `asked` where that is not reached, and in a build that cannot measure it.
+MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
+                              const std::string& asked, const Scene& scene, PolygonizeOptions options,
+                              const std::function<void()>& between = {});
 
 }  // namespace edgewise

@@ -38,8 +38,8 @@ struct BorderCrossing {
 
 class Builder {
   public:
-    Builder(const MeshRequest& request, BrickList bricks)
-        : lattice_(request.lattice), wedges_(request, complex_.bricks) {
+    Builder(const MeshRequest& request, const TapeAt& tape, BrickList bricks)
+        : lattice_(request.lattice), tape_(tape), wedges_(request, tape, complex_.bricks) {
         complex_.bricks = std::move(bricks);
     }
 
@@ -130,7 +130,7 @@ class Builder {
         const Brick& brick = complex_.bricks.bricks[b];
         crossings_.readValues(lattice_, brick);
         complex_.turned += wedges_.turnIn(brick, crossings_);
-        crossings_.findCrossings(lattice_, brick);
+        crossings_.findCrossings(lattice_, brick, tape_);
         requireClosed(crossings_.open(lattice_, brick));
         addPolygons(b);
         const bool smaller_around = smallerAround(brick.first, kBrickCells * brick.cellUnits(), brick.level);
@@ -198,9 +198,9 @@ class Builder {
         if (mixed)
             vertex.middle_world = glm::clamp(vertex.middle_world, lattice_.corner(cell.low) + kRim * side,
                                              lattice_.corner(cell.low + cell.side) - kRim * side);
-        const FeaturePoint point = featurePoint(
-            complex_.bricks.bricks[b].tape, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
-            vertex.middle_world, side);
+        const FeaturePoint point =
+            featurePoint(tape_, planes.first(std::min<std::size_t>(planes.size(), kMostPlanes)),
+                         vertex.middle_world, side);
         vertex.target_world = point.place_world, vertex.rank = static_cast<std::uint8_t>(point.rank);
         vertex.cell = cell, vertex.brick = b;
         vertex.loops = static_cast<std::uint8_t>(std::min(loops, 255)), vertex.mixed = mixed;
@@ -391,6 +391,7 @@ class Builder {
     }
 
     const Lattice& lattice_;
+    const TapeAt& tape_;
     DualComplex complex_;
     const WedgeCorners wedges_;
     BrickCrossings crossings_;
@@ -403,8 +404,8 @@ class Builder {
 
 }  // namespace
 
-DualComplex dualComplex(const MeshRequest& request, BrickList bricks) {
-    return Builder(request, std::move(bricks)).run();
+DualComplex dualComplex(const MeshRequest& request, const TapeAt& tape, BrickList bricks) {
+    return Builder(request, tape, std::move(bricks)).run();
 }
 
 }  // namespace edgewise::sdf

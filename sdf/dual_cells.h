@@ -11,6 +11,7 @@
 #include "sdf/mesh_lattice.h"
 #include "sdf/mesh_qef.h"
 #include "sdf/polygonize.h"
+#include "sdf/tape_at.h"
 
 namespace edgewise::sdf {
 
@@ -65,9 +66,10 @@ struct DualComplex {
 
 /// Of bricks that the surface may pass, some of them divided. Throws SceneError where it reaches the
 /// lattice's end.
-DualComplex dualComplex(const MeshRequest& request, BrickList bricks);
+DualComplex dualComplex(const MeshRequest& request, const TapeAt& tape, BrickList bricks);
 inline DualComplex dualComplex(const MeshRequest& request) {
-    return dualComplex(request, findBricks(request.tape, request.lattice, request.bound_holds));
+    return dualComplex(request, TapeAt(request.tape, request.lattice, request.bound_holds),
+                       findBricks(request.tape, request.lattice, request.bound_holds));
 }
 
 /// Cell k of a polygon that is not mixed.

@@ -24,7 +24,7 @@ constexpr double kSharpThin = 0.011, kSmoothThin = 0.014;
 constexpr int kRounds = 2;
 constexpr double kMostOffBricks = 0.2;
 /// The same three of a distance that is asked for.
-constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6;
+constexpr double kMiddlePart = 0.5, kOffPart = 0.75, kThinPart = 0.6, kSharpThinPart = 0.4;
 
 SharpCells sharpCells(const Lattice& lattice, const DualComplex& complex) {
     SharpCells sharp(lattice, complex.bricks);
@@ -50,14 +50,15 @@ Limits limitsOf(const MeshRequest& request) {
         return {{kSharpMiddle * step, kSmoothMiddle * step},
                 {kSharpOff * step, kSmoothOff * step},
                 {kSharpThin * step, kSmoothThin * step}};
-    const auto part = [&](double of) { return MeshLimits{of * *request.most_off, of * *request.most_off}; };
-    return {part(kMiddlePart), part(kOffPart), part(kThinPart)};
+    const auto part = [&](double of) { return MeshLimits{of, of, &*request.most_off}; };
+    return {part(kMiddlePart), part(kOffPart), {kSharpThinPart, kThinPart, &*request.most_off}};
 }
 
 class DualContouring {
   public:
     DualContouring(const MeshRequest& request, MeshCounts& counts)
         : request_(request),
+          tape_(request.tape, request.lattice, request.bound_holds),
           limits_(limitsOf(request)),
           counts_(counts),
           bricks_(findBricks(request.tape, request.lattice, request.bound_holds)),
@@ -76,22 +77,33 @@ class DualContouring {
   private:
     /// False: it is as near as it can be.
     bool meshBricks(int round) {
-        DualComplex complex = dualComplex(request_, std::move(bricks_));
+        DualComplex complex = dualComplex(request_, tape_, std::move(bricks_));
         counts_.turned = complex.turned;
-        counts_.debris = leaveOutDebris(request_, complex);
+        counts_.debris = leaveOutDebris(request_, tape_, complex);
         counts_.nodes = complex.bricks.nodes, counts_.pruned = complex.bricks.pruned;
         counts_.bricks = complex.bricks.bricks.size(), counts_.cells = complex.cells;
-        mesh_ = dualTriangles(request_.lattice, complex, counts_.mended);
+        mesh_ = dualTriangles(request_.lattice, tape_, complex, counts_.mended);
         const SharpCells sharp = sharpCells(request_.lattice, complex);
-        const TapeAt tape(request_.tape, request_.lattice, complex.bricks);
-        counts_.added = refineMesh(mesh_, tape, request_.lattice.step, sharp, limits_.middle);
         off_.clear();
-        if (round < rounds_ && complex.bricks.bricks.size() < most_bricks_)
-            off_ = placesOff(mesh_, request_, complex, sharp, limits_.most);
+        const bool may_divide = round < rounds_ && complex.bricks.bricks.size() < most_bricks_;
+        std::vector<glm::dvec3> left;
+        counts_.added = refineMesh(mesh_, tape_, request_.lattice.step, sharp, limits_.middle,
+                                   request_.most_off && may_divide ? &left : nullptr);
+        if (may_divide) off_ = placesOff(mesh_, request_, tape_, complex, sharp, limits_.most);
+        for (const glm::dvec3& p : left)
+            off_.push_back(
+                {p, complex.bricks.leafAt(request_.lattice, request_.lattice.unitAt(p)).level, 1, 1.0});
         bricks_ = std::move(complex.bricks);
         return !off_.empty();
     }
     bool divideBricks(int round) {
+        if (request_.most_off && round > 0) {
+            const double needed = bricksNeeded(off_, request_, bricks_);
+            if (needed > static_cast<double>(most_bricks_)) {
+                counts_.bricks_needed = needed;
+                return false;
+            }
+        }
         const std::size_t all = bricks_.bricks.size(), off = bricksOf(off_, request_.lattice, bricks_);
         const bool too_many = static_cast<double>(off) > kMostOffBricks * static_cast<double>(all) ||
                               (round > 0 && all + 8 * off > most_bricks_);
@@ -99,15 +111,15 @@ class DualContouring {
     }
     void simplify() {
         const double step = request_.lattice.step;
-        const TapeAt tape(request_.tape, request_.lattice, bricks_);
-        findMaterials(tape, mesh_);
+        findMaterials(tape_, mesh_);
         counts_.collapsed = leaveOutFlat(mesh_, step);
-        counts_.collapsed += thinOut(mesh_, tape, step, limits_.thin);
-        findMaterials(tape, mesh_);
-        if (request_.attributes) findNormals(tape, mesh_);
+        counts_.collapsed += thinOut(mesh_, tape_, step, limits_.thin);
+        findMaterials(tape_, mesh_);
+        if (request_.attributes) findNormals(tape_, mesh_);
     }
 
     const MeshRequest& request_;
+    const TapeAt tape_;
     const Limits limits_;
     MeshCounts& counts_;
     BrickList bricks_;

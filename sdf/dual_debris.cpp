@@ -27,8 +27,9 @@ std::vector<std::uint32_t> surfacesOf(const DualComplex& complex) {
 
 class Surface {
   public:
-    Surface(const MeshRequest& request, const DualComplex& complex, std::vector<std::uint32_t> polygons)
-        : request_(request), complex_(complex), polygons_(std::move(polygons)) {}
+    Surface(const MeshRequest& request, const TapeAt& tape, const DualComplex& complex,
+            std::vector<std::uint32_t> polygons)
+        : request_(request), tape_(tape), complex_(complex), polygons_(std::move(polygons)) {}
 
     bool isDebris() const {
         const bool solid = volume() > 0.0;
@@ -57,7 +58,7 @@ class Surface {
     /// The way comes so near to a corner that this is on its side too, and the corner is not within.
     bool leadsOut(const glm::dvec3& from, bool solid) const {
         const Lattice& lattice = request_.lattice;
-        InwardWay way(request_.tape, request_.tape.lipschitz, from, solid);
+        InwardWay way(tape_, request_.tape.lipschitz, from, solid);
         glm::ivec3 last(-1);
         for (int n = 0; n < kMostSteps && way.isOn(); ++n, way.step()) {
             const glm::ivec3 corner =
@@ -82,6 +83,7 @@ class Surface {
     }
 
     const MeshRequest& request_;
+    const TapeAt& tape_;
     const DualComplex& complex_;
     const std::vector<std::uint32_t> polygons_;
 };
@@ -117,7 +119,7 @@ void leaveOut(const std::vector<bool>& goes, DualComplex& complex) {
 
 }  // namespace
 
-std::size_t leaveOutDebris(const MeshRequest& request, DualComplex& complex) {
+std::size_t leaveOutDebris(const MeshRequest& request, const TapeAt& tape, DualComplex& complex) {
     if (!request.bound_holds || complex.polygons.empty()) return 0;
     const std::vector<std::uint32_t> surface_of = surfacesOf(complex);
     std::vector<std::vector<std::uint32_t>> polygons_of(complex.vertices.size());
@@ -126,7 +128,7 @@ std::size_t leaveOutDebris(const MeshRequest& request, DualComplex& complex) {
     std::vector<bool> debris(complex.vertices.size(), false);
     std::size_t count = 0;
     for (std::uint32_t s = 0; s < polygons_of.size(); ++s)
-        if (!polygons_of[s].empty() && Surface(request, complex, std::move(polygons_of[s])).isDebris())
+        if (!polygons_of[s].empty() && Surface(request, tape, complex, std::move(polygons_of[s])).isDebris())
             debris[s] = true, ++count;
     if (count == 0) return 0;
     std::vector<bool> goes(complex.vertices.size());

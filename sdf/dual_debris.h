@@ -11,6 +11,6 @@ namespace edgewise::sdf {
 /// a corner of the lattice that is inside but not within that surface. What is a part by itself, however
 /// small, is kept, as nothing leads out of it; and so is what no such way decides. Without the bound nothing
 /// goes. Gives how many surfaces went; polygons and vertices are numbered anew.
-std::size_t leaveOutDebris(const MeshRequest& request, DualComplex& complex);
+std::size_t leaveOutDebris(const MeshRequest& request, const TapeAt& tape, DualComplex& complex);
 
 }  // namespace edgewise::sdf

@@ -38,8 +38,7 @@ glm::dvec3 DualPlacement::heldInCell(const DualVertex& v, const glm::dvec3& targ
 }
 
 glm::dvec3 DualPlacement::heldOnSurface(const DualVertex& v) const {
-    const glm::dvec3 held = heldInCell(v, v.target_world),
-                     moved = onSurface(complex_.bricks.bricks[v.brick].tape, held);
+    const glm::dvec3 held = heldInCell(v, v.target_world), moved = onSurface(tape_, held);
     return inOwnCell(v, moved) ? moved : heldInCell(v, moved);
 }
 
@@ -55,8 +54,8 @@ bool DualPlacement::freeBeside(const DualVertex& v, glm::ivec3& at) const {
         place.x + kBrickCells * (place.y + kBrickCells * place.z))];
 }
 
-std::vector<glm::dvec3> placeVertices(const Lattice& lattice, DualComplex& complex) {
-    const DualPlacement placement(lattice, complex);
+std::vector<glm::dvec3> placeVertices(const Lattice& lattice, const TapeAt& tape, DualComplex& complex) {
+    const DualPlacement placement(lattice, tape, complex);
     std::vector<glm::dvec3> places;
     std::map<std::tuple<int, int, int>, std::vector<glm::dvec3>> taken;
     for (std::size_t n = 0; n < complex.vertices.size(); ++n) {

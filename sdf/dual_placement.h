@@ -7,8 +7,8 @@ namespace edgewise::sdf {
 
 class DualPlacement {
   public:
-    explicit DualPlacement(const Lattice& lattice, const DualComplex& complex)
-        : lattice_(lattice), complex_(complex) {}
+    DualPlacement(const Lattice& lattice, const TapeAt& tape, const DualComplex& complex)
+        : lattice_(lattice), tape_(tape), complex_(complex) {}
 
     bool inOwnCell(const DualVertex& v, const glm::dvec3& p) const;
 
@@ -26,12 +26,13 @@ class DualPlacement {
     double sideOf(const DualCell& cell) const { return lattice_.step * cell.side / kUnits; }
 
     const Lattice& lattice_;
+    const TapeAt& tape_;
     const DualComplex& complex_;
 };
 
 /// Of a complex's vertices. One may be in the cell next to its own where the surface has none of its own: a
 /// sharp edge that just looks in. Two in one place would be one. Others keep to their cells, their targets
 /// too.
-std::vector<glm::dvec3> placeVertices(const Lattice& lattice, DualComplex& complex);
+std::vector<glm::dvec3> placeVertices(const Lattice& lattice, const TapeAt& tape, DualComplex& complex);
 
 }  // namespace edgewise::sdf

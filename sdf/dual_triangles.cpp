@@ -23,17 +23,18 @@ enum Care : std::uint8_t { kFree, kInCell, kHalfway, kMiddle, kDivided };
 
 class Triangulation {
   public:
-    Triangulation(const Lattice& lattice, DualComplex& complex, std::uint64_t& mended)
+    Triangulation(const Lattice& lattice, const TapeAt& tape, DualComplex& complex, std::uint64_t& mended)
         : lattice_(lattice),
+          tape_(tape),
           complex_(complex),
-          placement_(lattice, complex),
+          placement_(lattice, tape, complex),
           mended_(mended),
           care_(complex.vertices.size(), kFree),
           diagonal_(complex.polygons.size(), 0xff),
           divided_(complex.polygons.size(), false),
           turned_(complex.polygons.size(), false),
           middles_(complex.polygons.size(), {kNoVertex, kNoVertex, kNoVertex, kNoVertex}) {
-        mesh_.position_world = placeVertices(lattice, complex);
+        mesh_.position_world = placeVertices(lattice, tape, complex);
     }
 
     SurfaceMesh run() {
@@ -178,7 +179,7 @@ class Triangulation {
     double offAlong(const DualPolygon& polygon, int d) const {
         const glm::dvec3 middle =
             0.5 * (mesh_.position_world[polygon.vertex[d]] + mesh_.position_world[polygon.vertex[d + 2]]);
-        return std::abs(valueAt(complex_.bricks.bricks[polygon.brick].tape, middle));
+        return std::abs(valueAt(tape_(middle), middle));
     }
 
     /// The diagonal nearer to the surface; of two as near, the shorter one.
@@ -257,6 +258,7 @@ class Triangulation {
     }
 
     const Lattice& lattice_;
+    const TapeAt& tape_;
     const DualComplex& complex_;
     const DualPlacement placement_;
     std::uint64_t& mended_;
@@ -270,8 +272,9 @@ class Triangulation {
 
 }  // namespace
 
-SurfaceMesh dualTriangles(const Lattice& lattice, DualComplex& complex, std::uint64_t& mended) {
-    return Triangulation(lattice, complex, mended).run();
+SurfaceMesh dualTriangles(const Lattice& lattice, const TapeAt& tape, DualComplex& complex,
+                          std::uint64_t& mended) {
+    return Triangulation(lattice, tape, complex, mended).run();
 }
 
 }  // namespace edgewise::sdf

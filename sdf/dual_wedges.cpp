@@ -22,30 +22,29 @@ std::size_t WedgeCorners::turnIn(const Brick& brick, BrickCrossings& crossings) 
     for (int n = 0; n < BrickCrossings::kCorners; ++n) {
         const glm::ivec3 place(n % kSide, n / kSide % kSide, n / (kSide * kSide));
         const double value = crossings.value(place);
-        if (std::abs(value) < 0.5 * cell * request_.tape.lipschitz &&
-            isThin(brick.tape, brick.unitsOf(place), value))
+        if (std::abs(value) < 0.5 * cell * request_.tape.lipschitz && isThin(brick.unitsOf(place), value))
             crossings.turn(place), ++count;
     }
     return count;
 }
 
 double WedgeCorners::valueAt(const glm::ivec3& unit) const {
-    const double value = sdf::valueAt(request_.tape, request_.lattice.corner(unit));
-    const bool thin = request_.bound_holds && isThin(request_.tape, unit, value);
+    const glm::dvec3 p = request_.lattice.corner(unit);
+    const double value = sdf::valueAt(tape_(p), p);
+    const bool thin = request_.bound_holds && isThin(unit, value);
     return !thin ? value : value < 0.0 ? -value : -std::max(value, 1e-300);
 }
 
-/// `tape`: good there and two cells around.
-bool WedgeCorners::isThin(const TapeView& tape, const glm::ivec3& unit, double value) const {
+bool WedgeCorners::isThin(const glm::ivec3& unit, double value) const {
     const glm::dvec3 p = request_.lattice.corner(unit);
     const double cell = finestAround(unit);
     const bool solid = value < 0.0;
-    const glm::dvec3 gradient = gradientAt(tape, p).gradient;
+    const glm::dvec3 gradient = gradientAt(tape_(p), p).gradient;
     const double slope = glm::length(gradient), depth = std::abs(value) / slope;
     if (!(slope > 0.0) || !(depth < 0.5 * cell)) return false;
     const glm::dvec3 beyond = p + (solid ? -1.0 : 1.0) * (cell - depth) / slope * gradient;
-    if ((sdf::valueAt(tape, beyond) < 0.0) == solid) return false;
-    InwardWay way(request_.tape, request_.tape.lipschitz, p, solid);
+    if ((sdf::valueAt(tape_(beyond), beyond) < 0.0) == solid) return false;
+    InwardWay way(tape_, request_.tape.lipschitz, p, solid);
     for (int n = 0; n < kMostSteps && way.length() < kLongest * cell && way.isOn(); ++n, way.step())
         if (way.reach() >= 0.5 * cell) return true;
     return false;

@@ -14,7 +14,8 @@ namespace edgewise::sdf {
 /// which do not get thick at all.
 class WedgeCorners {
   public:
-    WedgeCorners(const MeshRequest& request, const BrickList& bricks) : request_(request), bricks_(bricks) {}
+    WedgeCorners(const MeshRequest& request, const TapeAt& tape, const BrickList& bricks)
+        : request_(request), tape_(tape), bricks_(bricks) {}
 
     /// Turns the brick's, so many; the same ones whichever brick asks.
     std::size_t turnIn(const Brick& brick, BrickCrossings& crossings) const;
@@ -23,10 +24,11 @@ class WedgeCorners {
     double valueAt(const glm::ivec3& unit) const;
 
   private:
-    bool isThin(const TapeView& tape, const glm::ivec3& unit, double value) const;
+    bool isThin(const glm::ivec3& unit, double value) const;
     double finestAround(const glm::ivec3& unit) const;
 
     const MeshRequest& request_;
+    const TapeAt& tape_;
     const BrickList& bricks_;
 };
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "sdf/evaluate.h"
+#include "sdf/tape_at.h"
 
 namespace edgewise::sdf {
 
@@ -11,12 +12,12 @@ namespace edgewise::sdf {
 /// on its side of the surface. Between the two sides of a wedge it follows their middle.
 class InwardWay {
   public:
-    InwardWay(const TapeView& tape, double lipschitz, const glm::dvec3& from_world, bool solid)
+    InwardWay(const TapeAt& tape, double lipschitz, const glm::dvec3& from_world, bool solid)
         : tape_(tape), lipschitz_(lipschitz), sign_(solid ? -1.0 : 1.0), place_(from_world) {}
 
     /// False: it goes no further.
     bool isOn() {
-        const ValueAndGradient at = gradientAt(tape_, place_);
+        const ValueAndGradient at = gradientAt(tape_(place_), place_);
         const double before = depth_, slope = glm::length(at.gradient);
         depth_ = sign_ * at.value;
         normal_ = sign_ / slope * at.gradient;
@@ -36,7 +37,8 @@ class InwardWay {
     static constexpr double kPart = 0.5, kOpposite = 1e-3;
 
     glm::dvec3 direction(double step) const {
-        const glm::dvec3 beyond = sign_ * gradientAt(tape_, place_ + step * normal_).gradient;
+        const glm::dvec3 ahead = place_ + step * normal_,
+                         beyond = sign_ * gradientAt(tape_(ahead), ahead).gradient;
         const double slope = glm::length(beyond);
         if (!(slope > 0.0)) return normal_;
         const glm::dvec3 both = normal_ + beyond / slope;
@@ -44,7 +46,7 @@ class InwardWay {
         return length > kOpposite ? both / length : normal_;
     }
 
-    const TapeView tape_;
+    const TapeAt& tape_;
     const double lipschitz_, sign_;
     glm::dvec3 place_, normal_{0.0};
     double depth_ = 0.0, length_ = 0.0;

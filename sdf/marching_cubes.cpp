@@ -75,7 +75,10 @@ class LeastArea {
 class MarchingCubes {
   public:
     MarchingCubes(const MeshRequest& request, MeshCounts& counts)
-        : request_(request), lattice_(request.lattice), counts_(counts) {}
+        : request_(request),
+          lattice_(request.lattice),
+          tape_(request.tape, lattice_, request.bound_holds),
+          counts_(counts) {}
 
     SurfaceMesh run() {
         BrickList bricks = findBricks(request_.tape, lattice_, request_.bound_holds);
@@ -85,9 +88,8 @@ class MarchingCubes {
         vertex_.assign(bricks.bricks.size() * kOwned, kNoBrick);
         for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCrossings(b);
         for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCells(b);
-        const TapeAt tape(request_.tape, lattice_, bricks);
-        findMaterials(tape, mesh_);
-        if (request_.attributes) findNormals(tape, mesh_);
+        findMaterials(tape_, mesh_);
+        if (request_.attributes) findNormals(tape_, mesh_);
         return std::move(mesh_);
     }
 
@@ -107,7 +109,7 @@ class MarchingCubes {
 
     void takeCrossings(std::size_t b) {
         const Brick& brick = bricks_->bricks[b];
-        crossings_.read(lattice_, brick);
+        crossings_.read(lattice_, brick, tape_);
         requireClosed(crossings_.open(lattice_, brick));
         for (int n = 0; n < kBrickCells * kBrickCells * kBrickCells; ++n) {
             const glm::ivec3 corner(n % kBrickCells, n / kBrickCells % kBrickCells,
@@ -164,6 +166,7 @@ class MarchingCubes {
 
     const MeshRequest& request_;
     const Lattice& lattice_;
+    const TapeAt tape_;
     MeshCounts& counts_;
     const BrickList* bricks_ = nullptr;
     BrickCrossings crossings_, values_;

@@ -22,14 +22,6 @@ glm::dvec3 centreOf(const SurfaceMesh& mesh, const Triangle& t) {
 
 }  // namespace
 
-TapeAt::TapeAt(const Tape& whole, const Lattice& lattice, const BrickList& bricks)
-    : whole_(whole), lattice_(lattice), bricks_(bricks) {}
-
-TapeView TapeAt::operator()(const glm::dvec3& p) const {
-    const std::uint32_t brick = bricks_.leafAt(lattice_, lattice_.unitAt(p)).brick;
-    return brick == kNoBrick ? TapeView(whole_) : bricks_.bricks[brick].tape;
-}
-
 void findMaterials(const TapeAt& tape, SurfaceMesh& mesh) {
     mesh.material.resize(mesh.triangles.size());
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {

@@ -1,25 +1,29 @@
 #include "sdf/mesh_check.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 
 #include "sdf/evaluate.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/surface_distance.h"
 #include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
 namespace {
 
+constexpr std::size_t kChunk = 64;
 constexpr int kPlaces = kBrickCells * kBrickCells * kBrickCells;
 /// Of a cell's side: a place counts as one on the surface.
 constexpr double kOnSurface = 1e-6;
-/// Fields are trusted to be no flatter.
-constexpr double kLeastSlope = 0.1;
 
 class Check {
   public:
-    Check(const SurfaceMesh& mesh, const MeshRequest& request, const DualComplex& complex,
+    Check(const SurfaceMesh& mesh, const MeshRequest& request, const TapeAt& tape, const DualComplex& complex,
           const SharpCells& sharp, const MeshLimits& limits)
         : mesh_(mesh),
           request_(request),
@@ -27,25 +31,43 @@ class Check {
           complex_(complex),
           sharp_(sharp),
           limits_(limits),
-          tape_(request.tape, lattice_, complex.bricks),
+          tape_(tape),
           tree_(mesh.position_world, mesh.triangles) {}
 
     std::vector<PlaceOff> run() {
-        for (const Triangle& t : mesh_.triangles) takeTriangle(t);
-        for (const DualPolygon& p : complex_.polygons)
-            if (!p.made) takePlace(p.brick, p.crossing.point);
-        for (std::uint32_t b = 0; b < complex_.bricks.bricks.size(); ++b)
-            if (!complex_.bricks.bricks[b].divided) takeBrick(b);
-        return std::move(off_);
+        std::vector<PlaceOff> all;
+        // By chunks, whose finds are joined in order: as one thread would find them.
+        const auto each = [&](std::size_t count, const auto& take) {
+            std::vector<std::vector<PlaceOff>> parts((count + kChunk - 1) / kChunk);
+            tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
+                for (std::size_t n = part * kChunk; n < std::min(count, (part + 1) * kChunk); ++n) take(n);
+                parts[part].swap(off_.local());
+            });
+            for (const std::vector<PlaceOff>& part : parts) all.insert(all.end(), part.begin(), part.end());
+        };
+        each(mesh_.triangles.size(), [&](std::size_t t) { takeTriangle(mesh_.triangles[t]); });
+        each(complex_.polygons.size(), [&](std::size_t p) {
+            const DualPolygon& polygon = complex_.polygons[p];
+            if (!polygon.made) takePlace(polygon.brick, polygon.crossing.point);
+        });
+        each(complex_.bricks.bricks.size(), [&](std::size_t b) {
+            if (!complex_.bricks.bricks[b].divided) takeBrick(static_cast<std::uint32_t>(b));
+        });
+        return all;
     }
 
   private:
-    double limitAt(const glm::dvec3& p) const { return sharp_.at(p) ? limits_.sharp : limits_.smooth; }
+    /// The least within so far of a place.
+    double limitAt(const glm::dvec3& p, double radius) const {
+        const MeshLimits limits = limits_.within(p, radius);
+        return sharp_.at(p) ? limits.sharp : limits.smooth;
+    }
 
     /// What a cell's size does to the mesh is about as large as it.
     void add(const glm::dvec3& p, std::uint32_t b, double times_limit) {
         const int halved = times_limit > 4.0 ? 3 : times_limit > 2.0 ? 2 : 1;
-        off_.push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved)});
+        off_.local().push_back({p, complex_.bricks.bricks[b].level, std::min(halved, kMostHalved),
+                                sharp_.at(p) ? 1.0 : times_limit});
     }
     std::uint32_t brickAt(const glm::dvec3& p) const {
         return complex_.bricks.leafAt(lattice_, lattice_.unitAt(p)).brick;
@@ -53,29 +75,26 @@ class Check {
 
     void takeTriangle(const Triangle& t) {
         const auto at = [&](int i) { return mesh_.position_world[t[i % 3]]; };
-        takeMeshPlace((at(0) + at(1) + at(2)) / 3.0, t);
+        const glm::dvec3 centre = (at(0) + at(1) + at(2)) / 3.0;
+        takeMeshPlace(centre,
+                      std::max({glm::distance(centre, at(0)), glm::distance(centre, at(1)),
+                                glm::distance(centre, at(2))}),
+                      t);
         for (int i = 0; i < 3; ++i)
-            if (t[i] < t[(i + 1) % 3]) takeMeshPlace(0.5 * (at(i) + at(i + 1)), t);
+            if (t[i] < t[(i + 1) % 3])
+                takeMeshPlace(0.5 * (at(i) + at(i + 1)), 0.5 * glm::distance(at(i), at(i + 1)), t);
     }
-    void takeMeshPlace(const glm::dvec3& p, const Triangle& t) {
+    void takeMeshPlace(const glm::dvec3& p, double radius, const Triangle& t) {
         const std::uint32_t b = brickAt(p);
-        const double limit = limitAt(p), off = distanceAt(tape_(p), p, limit);
+        const double limit = limitAt(p, radius), off = distanceBy(tape_, p, limit);
         if (off <= limit) return;
         if (b != kNoBrick) return add(p, b, off / limit);
         for (const std::uint32_t v : t)
             if (const glm::dvec3& q = mesh_.position_world[v]; brickAt(q) != kNoBrick)
                 add(q, brickAt(q), off / limit);
     }
-    /// About how far the surface is, by value and slope; 0 where that is certainly less than the limit.
-    double distanceAt(const TapeView& tape, const glm::dvec3& p, double limit) const {
-        const double value = std::abs(valueAt(tape, p));
-        if (value < kLeastSlope * limit) return 0.0;
-        const double slope = glm::length(gradientAt(tape, p).gradient);
-        return value / std::max(slope, kLeastSlope);
-    }
-
     void takePlace(std::uint32_t b, const glm::dvec3& p) {
-        const double limit = limitAt(p);
+        const double limit = limitAt(p, 0.0);
         if (tree_.near(p, limit)) return;
         add(p, b, tree_.near(p, 2.0 * limit) ? 1.0 : tree_.near(p, 4.0 * limit) ? 3.0 : 5.0);
     }
@@ -107,10 +126,9 @@ class Check {
                0.5 * side;
     }
     void takeCell(std::uint32_t b, const glm::dvec3& centre, double side) {
-        const TapeView& tape = complex_.bricks.bricks[b].tape;
-        const glm::dvec3 p = onSurface(tape, centre), off = glm::abs(p - centre);
+        const glm::dvec3 p = onSurface(tape_, centre), off = glm::abs(p - centre);
         if (std::max({off.x, off.y, off.z}) > 0.5 * side) return;
-        if (std::abs(valueAt(tape, p)) <= kOnSurface * side) takePlace(b, p);
+        if (std::abs(valueAt(tape_(p), p)) <= kOnSurface * side) takePlace(b, p);
     }
 
     const SurfaceMesh& mesh_;
@@ -119,17 +137,34 @@ class Check {
     const DualComplex& complex_;
     const SharpCells& sharp_;
     const MeshLimits limits_;
-    const TapeAt tape_;
+    const TapeAt& tape_;
     const TriangleTree tree_;
-    std::vector<PlaceOff> off_;
+    tbb::enumerable_thread_specific<std::vector<PlaceOff>> off_;
 };
 
 }  // namespace
 
-std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request,
+std::vector<PlaceOff> placesOff(const SurfaceMesh& mesh, const MeshRequest& request, const TapeAt& tape,
                                 const DualComplex& complex, const SharpCells& sharp,
                                 const MeshLimits& limits) {
-    return Check(mesh, request, complex, sharp, limits).run();
+    return Check(mesh, request, tape, complex, sharp, limits).run();
+}
+
+double bricksNeeded(const std::vector<PlaceOff>& places, const MeshRequest& request,
+                    const BrickList& bricks) {
+    std::map<std::uint32_t, double> worst;
+    for (const PlaceOff& off : places) {
+        double& times = worst[bricks.leafAt(request.lattice, request.lattice.unitAt(off.place_world)).brick];
+        times = std::max(times, off.times_limit);
+    }
+    double needed = static_cast<double>(bricks.bricks.size());
+    for (const auto& [brick, times] : worst) {
+        if (brick == kNoBrick) continue;
+        const double halved = std::max(std::ceil(0.5 * std::log2(times)) - 1.0, 0.0);
+        if (bricks.bricks[brick].level + halved > kMostLevels) return HUGE_VAL;
+        needed += std::exp2(2.0 * halved) - 1.0;
+    }
+    return needed;
 }
 
 std::size_t divideAt(const std::vector<PlaceOff>& places, const MeshRequest& request, std::size_t most_bricks,

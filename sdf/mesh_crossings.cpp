@@ -68,7 +68,7 @@ void BrickCrossings::readValues(const Lattice& lattice, const Brick& brick) {
     }
 }
 
-void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
+void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick, const TapeAt& tape) {
     crossings_.clear();
     for (auto& axis : at_) axis.fill(-1);
     struct Edge {
@@ -112,7 +112,7 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
             const Edge& e = edges[lane];
             glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
             p[e.axis] = roots.lane[lane].root;
-            addCrossing(brick, e.corner, e.axis, p, false);
+            addCrossing(tape, e.corner, e.axis, p, false);
         }
         waiting = 0;
     };
@@ -128,7 +128,7 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
                     if (turned_[indexOf(corner)] || turned_[indexOf(end)]) {
                         const glm::dvec3 middle = 0.5 * (lattice.corner(brick.unitsOf(corner)) +
                                                          lattice.corner(brick.unitsOf(end)));
-                        addCrossing(brick, corner, axis, middle, true);
+                        addCrossing(tape, corner, axis, middle, true);
                         continue;
                     }
                     edges[waiting++] = {corner, axis};
@@ -137,9 +137,9 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick) {
     if (waiting > 0) solve();
 }
 
-void BrickCrossings::addCrossing(const Brick& brick, const glm::ivec3& corner, int axis, const glm::dvec3& p,
+void BrickCrossings::addCrossing(const TapeAt& tape, const glm::ivec3& corner, int axis, const glm::dvec3& p,
                                  bool made) {
-    const glm::dvec3 gradient = gradientAt(brick.tape, p).gradient;
+    const glm::dvec3 gradient = gradientAt(tape(p), p).gradient;
     const double length = glm::length(gradient);
     glm::dvec3 normal(0.0);
     normal[axis] = value(corner) < 0.0 ? 1.0 : -1.0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sdf/mesh_cell.h"
-#include "sdf/mesh_lattice.h"
+#include "sdf/tape_at.h"
 
 namespace edgewise::sdf {
 
@@ -23,15 +23,15 @@ class BrickCrossings {
     static constexpr int kSide = kBrickCells + 1, kCorners = kSide * kSide * kSide;
 
     /// Reads the brick anew.
-    void read(const Lattice& lattice, const Brick& brick) {
+    void read(const Lattice& lattice, const Brick& brick, const TapeAt& tape) {
         readValues(lattice, brick);
-        findCrossings(lattice, brick);
+        findCrossings(lattice, brick, tape);
     }
     /// Its values alone.
     void readValues(const Lattice& lattice, const Brick& brick);
     /// From then on a corner counts as on the surface's other side; edges cross it in their middle there.
     void turn(const glm::ivec3& c);
-    void findCrossings(const Lattice& lattice, const Brick& brick);
+    void findCrossings(const Lattice& lattice, const Brick& brick, const TapeAt& tape);
 
     /// By a corner's place in the brick.
     double value(const glm::ivec3& c) const { return values_[indexOf(c)]; }
@@ -56,7 +56,7 @@ class BrickCrossings {
     static int indexOf(const glm::ivec3& c) { return c.x + kSide * (c.y + kSide * c.z); }
 
   private:
-    void addCrossing(const Brick& brick, const glm::ivec3& corner, int axis, const glm::dvec3& p, bool made);
+    void addCrossing(const TapeAt& tape, const glm::ivec3& corner, int axis, const glm::dvec3& p, bool made);
 
     std::array<double, kCorners> values_;
     std::array<std::array<int, kCorners>, 3> at_;

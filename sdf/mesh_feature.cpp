@@ -19,10 +19,10 @@ constexpr std::size_t kManyPlanes = 12;
 /// Of a cell's side: planes meet exactly; a point is on the surface.
 constexpr double kMeet = 1e-10, kOnSurface = 1e-4;
 
-TangentPlane tangentPlane(const TapeView& tape, glm::dvec3 p, const glm::dvec3& other_normal) {
+TangentPlane tangentPlane(const TapeAt& tape, glm::dvec3 p, const glm::dvec3& other_normal) {
     glm::dvec3 normal = other_normal;
     for (int step = 0; step < 2; ++step) {
-        const ValueAndGradient at = gradientAt(tape, p);
+        const ValueAndGradient at = gradientAt(tape(p), p);
         const double slope2 = glm::dot(at.gradient, at.gradient);
         if (!(slope2 > 0.0) || !std::isfinite(slope2)) break;
         normal = at.gradient / std::sqrt(slope2);
@@ -53,10 +53,10 @@ bool areOne(const TangentPlane& a, const TangentPlane& b) {
 
 }  // namespace
 
-glm::dvec3 onSurface(const TapeView& tape, const glm::dvec3& from) {
+glm::dvec3 onSurface(const TapeAt& tape, const glm::dvec3& from) {
     glm::dvec3 p = from;
     for (int step = 0; step < kNewtonSteps; ++step) {
-        const ValueAndGradient at = gradientAt(tape, p);
+        const ValueAndGradient at = gradientAt(tape(p), p);
         const double slope2 = glm::dot(at.gradient, at.gradient);
         if (!(slope2 > 0.0) || !std::isfinite(slope2) || at.value == 0.0) break;
         const glm::dvec3 move = at.gradient * (at.value / slope2);
@@ -66,7 +66,7 @@ glm::dvec3 onSurface(const TapeView& tape, const glm::dvec3& from) {
     return p;
 }
 
-FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> given, const glm::dvec3& about,
+FeaturePoint featurePoint(const TapeAt& tape, std::span<const TangentPlane> given, const glm::dvec3& about,
                           double step) {
     std::array<TangentPlane, kMostPlanes> planes;
     std::copy(given.begin(), given.end(), planes.begin());
@@ -75,7 +75,7 @@ FeaturePoint featurePoint(const TapeView& tape, std::span<const TangentPlane> gi
     PlanesPoint found = nearestToPlanes(own, about, kCutoff);
     for (int n = 0;; ++n) {
         if (found.rank < 2 || glm::distance(found.place, about) > 2.0 * step) return smooth();
-        const double off = std::abs(valueAt(tape, found.place));
+        const double off = std::abs(valueAt(tape(found.place), found.place));
         if (found.residual <= kMeet * step && off <= kMeet * step) break;
         if (n == kRefinements) {
             if (off > kOnSurface * step) return smooth();

@@ -5,13 +5,22 @@
 #include <vector>
 
 #include "sdf/mesh_lattice.h"
+#include "sdf/most_off.h"
 
 namespace edgewise::sdf {
 
-/// Lengths in the world.
+/// Lengths in the world, or parts of what is asked for.
 struct MeshLimits {
     double sharp;   ///< by sharp edges
     double smooth;  ///< elsewhere
+    const MostOff* most_off = nullptr;
+
+    /// As lengths: the least within a ball.
+    MeshLimits within(const glm::dvec3& centre_world, double radius) const {
+        if (!most_off) return *this;
+        const double most = most_off->leastWithin(centre_world, radius);
+        return {sharp * most, smooth * most};
+    }
 };
 
 /// Where sharp edges are: cells.
@@ -33,6 +42,15 @@ class SharpCells {
         const glm::ivec3 unit = lattice_.unitAt(p_world);
         const std::uint32_t brick = bricks_.leafAt(lattice_, unit).brick;
         return brick == kNoBrick || (any_[brick] && sharp_[brick].test(placeOf(brick, unit)));
+    }
+    /// How many there are, and the one at a place, or kNoBrick.
+    std::uint32_t bricks() const { return static_cast<std::uint32_t>(sharp_.size()); }
+    std::uint32_t brickAt(const glm::dvec3& p_world) const {
+        return bricks_.leafAt(lattice_, lattice_.unitAt(p_world)).brick;
+    }
+    /// Of the cells around a place.
+    double sideAt(const glm::dvec3& p_world) const {
+        return lattice_.step / (1 << bricks_.leafAt(lattice_, lattice_.unitAt(p_world)).level);
     }
     bool cell(std::uint32_t brick, std::size_t place) const { return sharp_[brick].test(place); }
 

@@ -1,5 +1,8 @@
 #include "sdf/mesh_refine.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +12,7 @@
 #include "sdf/evaluate.h"
 #include "sdf/mesh_edit.h"
 #include "sdf/mesh_feature.h"
+#include "sdf/surface_distance.h"
 #include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
@@ -45,8 +49,22 @@ constexpr double kFolded = 0.95;
 /// Of the way from its middle to a tip: where its sides are asked for; of the limit: they meet there.
 constexpr double kNear = 0.1, kByTip = 0.6, kOn = 1e-2;
 
+/// Edges off in a brick: more than a sharp edge or two through its cells have.
+constexpr std::uint32_t kMostInBrick = 16 * kBrickCells;
+
 constexpr int kMostShifts = 4, kMostStuck = 4;
 constexpr std::size_t kShiftPlanes = 16, kMostWays = 4;
+
+/// Of triangles' longest sides; 1 where there are none.
+double meanSize(const SurfaceMesh& mesh) {
+    double sum = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+        const auto &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]],
+                   &c = mesh.position_world[t[2]];
+        sum += std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    }
+    return sum > 0.0 ? sum / static_cast<double>(mesh.triangles.size()) : 1.0;
+}
 
 struct Candidate {
     std::uint32_t a, b;
@@ -57,16 +75,17 @@ class Refiner {
   public:
     Refiner(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
             const MeshLimits& limits)
-        : edit_(mesh, step), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
+        : edit_(mesh, meanSize(mesh)), tape_(tape), step_(step), sharp_(sharp), limits_(limits) {}
 
-    std::size_t run() {
+    std::size_t run(std::vector<glm::dvec3>* left) {
         for (std::uint32_t v = 0; v < edit_.mesh().position_world.size(); ++v) shiftBack(v);
         std::vector<std::uint32_t> active(edit_.mesh().triangles.size());
         for (std::uint32_t t = 0; t < active.size(); ++t) active[t] = t;
         std::size_t budget = edit_.mesh().position_world.size();
         for (int round = 0; round < kRounds && !active.empty(); ++round) {
             touched_.clear();
-            const std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            std::vector<Candidate> candidates = candidatesOf(active, round == 0);
+            if (round == 0 && left) leaveToSmallerCells(candidates, *left);
             if (candidates.size() > budget) break;  // cells are too large for this surface
             budget -= candidates.size();
             for (const Candidate& c : candidates) improve(c);
@@ -87,11 +106,13 @@ class Refiner {
     const glm::dvec3& at(std::uint32_t v) const { return edit_.at(v); }
     const Triangle& triangle(std::uint32_t t) const { return edit_.mesh().triangles[t]; }
     double offAt(const glm::dvec3& p) const { return std::abs(valueAt(tape_(p), p)); }
+    /// Cells are smaller where they were divided for a distance.
+    double sideAt(const glm::dvec3& p) const { return limits_.most_off ? sharp_.sideAt(p) : step_; }
+    MeshLimits limitsAt(std::uint32_t v) const { return limits_.within(at(v), 0.0); }
     double offBetween(const glm::dvec3& a, const glm::dvec3& b) const { return offAt(0.5 * (a + b)); }
 
     std::vector<Candidate> candidatesOf(const std::vector<std::uint32_t>& triangles, bool all) const {
-        std::vector<Candidate> found;
-        for (const std::uint32_t t : triangles)
+        const auto add = [&](std::uint32_t t, std::vector<Candidate>& found) {
             for (int i = 0; i < 3; ++i) {
                 std::uint32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3];
                 if (all && a > b) continue;  // the other triangle asks
@@ -99,6 +120,12 @@ class Refiner {
                 if (isStuck(a) || isStuck(b)) continue;
                 if (const double off = tooFarOff(a, b); off > 0.0) found.push_back({a, b, off});
             }
+        };
+        tbb::enumerable_thread_specific<std::vector<Candidate>> parts;
+        tbb::parallel_for(std::size_t(0), triangles.size(),
+                          [&](std::size_t n) { add(triangles[n], parts.local()); });
+        std::vector<Candidate> found;
+        for (const std::vector<Candidate>& part : parts) found.insert(found.end(), part.begin(), part.end());
         std::sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
             return std::tie(y.off, x.a, x.b) < std::tie(x.off, y.a, y.b);
         });
@@ -106,22 +133,40 @@ class Refiner {
         found.erase(std::unique(found.begin(), found.end(), same), found.end());
         return found;
     }
+    glm::dvec3 middleOf(const Candidate& c) const { return 0.5 * (at(c.a) + at(c.b)); }
+    /// Drops those in bricks where many edges are off.
+    void leaveToSmallerCells(std::vector<Candidate>& candidates, std::vector<glm::dvec3>& left) const {
+        std::vector<std::uint32_t> brick, count(sharp_.bricks() + 1, 0);
+        for (const Candidate& c : candidates) {
+            brick.push_back(std::min(sharp_.brickAt(middleOf(c)), sharp_.bricks()));
+            ++count[brick.back()];
+        }
+        std::size_t kept = 0;
+        for (std::size_t n = 0; n < candidates.size(); ++n)
+            if (count[brick[n]] <= kMostInBrick || brick[n] == sharp_.bricks())
+                candidates[kept++] = candidates[n];
+            else
+                left.push_back(middleOf(candidates[n]));
+        candidates.resize(kept);
+    }
     /// How far an edge is off, or 0 where that is within its limit. A sharp edge is further away than the
     /// surface is: where planes meet at an angle of 2 beta, what is d from both on their middle is d /
     /// sin(beta) from their line, and what is on one of them is not off at all.
     double tooFarOff(std::uint32_t a, std::uint32_t b) const {
         const glm::dvec3 middle = 0.5 * (at(a) + at(b));
-        if (glm::distance(at(a), at(b)) < kShortest * step_) return 0.0;
-        const double off = offAt(middle);
+        const double length = glm::distance(at(a), at(b)), side = sideAt(middle);
+        if (length < kShortest * side) return 0.0;
+        const MeshLimits limits = limits_.within(middle, 0.5 * length);
+        const double off = limits_.most_off ? distanceBy(tape_, middle, limits.smooth) : offAt(middle);
         Diamond d;
-        if (off > limits_.smooth || !edit_.diamondOf(a, b, d)) return off > limits_.smooth ? off : 0.0;
+        if (off > limits.smooth || !edit_.diamondOf(a, b, d)) return off > limits.smooth ? off : 0.0;
         if (isFolded(d)) {
-            const double far = std::max(off, sharpEdgeFrom(d));
-            return far > limits_.sharp ? far : 0.0;
+            const double far = std::max(off, sharpEdgeFrom(d, limits.sharp));
+            return far > limits.sharp ? far : 0.0;
         }
-        if (off <= kNarrowest * limits_.sharp) return 0.0;
-        if (!sharp_.at(middle) && glm::distance(at(a), at(b)) <= kLong * step_) return 0.0;
-        return off > limits_.sharp || off > limits_.sharp * halfAngleSine(d) ? off : 0.0;
+        if (off <= kNarrowest * limits.sharp) return 0.0;
+        if (!sharp_.at(middle) && length <= kLong * side) return 0.0;
+        return off > limits.sharp || off > limits.sharp * halfAngleSine(d) ? off : 0.0;
     }
     bool isFolded(const Diamond& d) const {
         const glm::dvec3 first = normalOf(d.sides[0]), second = normalOf(d.sides[1]);
@@ -134,25 +179,24 @@ class Refiner {
         return glm::cross(at(b) - at(a), at(c) - at(a));
     }
     /// From its middle to the sharp edge of its two sides.
-    double sharpEdgeFrom(const Diamond& d) const {
+    double sharpEdgeFrom(const Diamond& d, double limit) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
         const auto offTowards = [&](std::uint32_t tip) { return offAt(middle + kNear * (at(tip) - middle)); };
-        if (std::max(offTowards(d.tips[0]), offTowards(d.tips[1])) < kOn * limits_.sharp) return 0.0;
+        if (std::max(offTowards(d.tips[0]), offTowards(d.tips[1])) < kOn * limit) return 0.0;
         std::vector<TangentPlane> planes;
         for (const std::uint32_t v : {d.a, d.b, d.tips[0], d.tips[1]})
-            addPlane(tape_.whole(), middle + kByTip * (at(v) - middle), planes);
+            addPlane(tape_, middle + kByTip * (at(v) - middle), planes);
         if (planes.empty()) return 0.0;
-        const FeaturePoint point = featurePoint(tape_.whole(), planes, middle, 0.5 * kReach * step_);
+        const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * step_);
         return point.rank < 2 ? 0.0 : glm::distance(point.place_world, middle);
     }
     double halfAngleSine(const Diamond& d) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
-        const TapeView tape = tape_(middle);
         std::array<glm::dvec3, 4> normals;
         double least = 1.0;
         for (std::size_t i = 0; i < 4; ++i) {
             const std::uint32_t v = i == 0 ? d.a : i == 1 ? d.b : d.tips[i - 2];
-            normals[i] = normalNear(tape, middle + kByEnd * (at(v) - middle));
+            normals[i] = normalNear(tape_, middle + kByEnd * (at(v) - middle));
             for (std::size_t j = 0; j < i; ++j) least = std::min(least, glm::dot(normals[i], normals[j]));
         }
         return std::max(std::sqrt(std::max(0.5 * (1.0 + least), 0.0)), kNarrowest);
@@ -179,10 +223,9 @@ class Refiner {
     /// No sharp edge is near: along the edge, and between the tips, the normal turns evenly.
     bool isEven(const Diamond& d) const {
         const glm::dvec3 middle = 0.5 * (at(d.a) + at(d.b));
-        const TapeView tape = tape_(middle);
-        const glm::dvec3 centre = normalNear(tape, middle);
+        const glm::dvec3 centre = normalNear(tape_, middle);
         const auto normal = [&](std::uint32_t v, double part) {
-            return normalNear(tape, middle + part * (at(v) - middle));
+            return normalNear(tape_, middle + part * (at(v) - middle));
         };
         const std::array along{normal(d.a, kEnd), normal(d.a, kByEnd), centre, normal(d.b, kByEnd),
                                normal(d.b, kEnd)};
@@ -191,8 +234,8 @@ class Refiner {
         const std::array across{normal(d.tips[0], kByEnd), centre, normal(d.tips[1], kByEnd)};
         return turnsEvenly(across, std::array{kByEnd, kByEnd});
     }
-    static glm::dvec3 normalNear(const TapeView& tape, const glm::dvec3& p) {
-        const glm::dvec3 gradient = gradientAt(tape, p).gradient;
+    static glm::dvec3 normalNear(const TapeAt& tape, const glm::dvec3& p) {
+        const glm::dvec3 gradient = gradientAt(tape(p), p).gradient;
         const double length = glm::length(gradient);
         return length > 0.0 ? gradient / length : glm::dvec3(0.0);
     }
@@ -210,9 +253,9 @@ class Refiner {
         return true;
     }
     void shiftBack(std::uint32_t v) {
-        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limits_.sharp) shift(v);
+        if (!edit_.around(v).empty() && offAt(at(v)) > kMended * limitsAt(v).sharp) shift(v);
     }
-    bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * step_ && shift(v); }
+    bool shiftOff(std::uint32_t v) { return offAt(at(v)) > kOff * sideAt(at(v)) && shift(v); }
 
     /// How far the triangles around a vertex would be off the surface with it there.
     double offWith(std::uint32_t v, const glm::dvec3& p) const {
@@ -239,7 +282,6 @@ class Refiner {
     bool shift(std::uint32_t v) {
         if (tooOften(v, shifts_)) return false;
         const glm::dvec3 from = at(v);
-        const TapeView tape = tape_.whole();
         const double most = kGain * offWith(v, from);
         double reach = kReach * step_;
         std::vector<TangentPlane> planes;
@@ -247,15 +289,15 @@ class Refiner {
             const glm::dvec3 side = at(othersOf(triangle(t), v)[0]) - from;
             reach = std::max(reach, glm::length(side));
             for (const double part : {0.3, 0.7})
-                if (planes.size() < kShiftPlanes) addPlane(tape, from + part * side, planes);
+                if (planes.size() < kShiftPlanes) addPlane(tape_, from + part * side, planes);
         }
         std::vector<std::pair<double, glm::dvec3>> ways;
         const auto attempt = [&](const glm::dvec3& p) {
             if (!(glm::distance(p, from) <= reach)) return;
             if (const double off = offWith(v, p); off < most) ways.push_back({off, p});
         };
-        if (!planes.empty()) attempt(featurePoint(tape, planes, from, 0.5 * kReach * step_).place_world);
-        attempt(onSurface(tape, from));
+        if (!planes.empty()) attempt(featurePoint(tape_, planes, from, 0.5 * kReach * step_).place_world);
+        attempt(onSurface(tape_, from));
         if (ways.size() == 2 && ways[1].first < ways[0].first) std::swap(ways[0], ways[1]);
         for (const auto& [off, p] : ways)
             for (const glm::dvec3& to : {p, 0.5 * (from + p)})
@@ -267,7 +309,7 @@ class Refiner {
     /// leave its place.
     bool draw(std::uint32_t v) {
         if (tooOften(v, draws_)) return false;
-        const bool on_surface = offAt(at(v)) <= limits_.sharp;
+        const bool on_surface = offAt(at(v)) <= limitsAt(v).sharp;
         const double most = kGain * offWith(v, at(v));
         edit_.neighboursOf(v, neighbours_);
         std::vector<std::pair<double, std::uint32_t>> ways;
@@ -308,7 +350,7 @@ class Refiner {
     /// The other diagonal is nearer to the surface, and makes no slivers.
     bool shouldTurn(const Diamond& d) const {
         const auto [p, q] = d.tips;
-        const double least = kLeastHeight * step_;
+        const double least = kLeastHeight * sideAt(0.5 * (at(d.a) + at(d.b)));
         if (heightOf(d.a, p, q) < least || heightOf(d.b, p, q) < least) return false;
         const double now = std::max({offBetween(at(d.a), at(d.b)), offOf(d.a, d.b, p), offOf(d.a, d.b, q)});
         const double then = std::max({offBetween(at(p), at(q)), offOf(d.a, p, q), offOf(d.b, p, q)});
@@ -345,10 +387,9 @@ class Refiner {
             if (off < kGain * c.off) found.push_back({off, p});
         };
         if (even || !sharp_.at(middle)) {
-            attempt(onSurface(tape_(middle), middle));
+            attempt(onSurface(tape_, middle));
             if (!found.empty() || even) return found;
         }
-        const TapeView tape = tape_.whole();
         reach = std::max(reach, kReach * step_);
         const std::array<glm::dvec3, 4> ends{a, b, at(tips[0]), at(tips[1])};
         bool sharp = false;
@@ -357,19 +398,20 @@ class Refiner {
              {std::pair{4, std::array{0.25, 0.6}}, std::pair{2, std::array{0.8, 0.97}}}) {
             std::vector<TangentPlane> planes;
             for (int end = 0; end < count; ++end)
-                for (const double part : parts) addPlane(tape, middle + part * (ends[end] - middle), planes);
+                for (const double part : parts) addPlane(tape_, middle + part * (ends[end] - middle), planes);
             if (planes.empty()) continue;
-            const FeaturePoint point = featurePoint(tape, planes, middle, 0.5 * kReach * step_);
+            const FeaturePoint point = featurePoint(tape_, planes, middle, 0.5 * kReach * step_);
             if (point.rank < 2) continue;
             sharp = true;
             attempt(point.place_world);
         }
-        if (!sharp && c.off > limits_.smooth) attempt(onSurface(tape, middle));
+        if (!sharp && c.off > limits_.within(middle, 0.5 * glm::distance(a, b)).smooth)
+            attempt(onSurface(tape_, middle));
         std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
         return found;
     }
-    static void addPlane(const TapeView& tape, const glm::dvec3& near, std::vector<TangentPlane>& planes) {
-        const glm::dvec3 p = onSurface(tape, near), gradient = gradientAt(tape, p).gradient;
+    static void addPlane(const TapeAt& tape, const glm::dvec3& near, std::vector<TangentPlane>& planes) {
+        const glm::dvec3 p = onSurface(tape, near), gradient = gradientAt(tape(p), p).gradient;
         const double length = glm::length(gradient);
         if (length > 0.0 && std::isfinite(length)) planes.push_back({p, gradient / length});
     }
@@ -387,8 +429,8 @@ class Refiner {
 }  // namespace
 
 std::size_t refineMesh(SurfaceMesh& mesh, const TapeAt& tape, double step, const SharpCells& sharp,
-                       const MeshLimits& limits) {
-    return Refiner(mesh, tape, step, sharp, limits).run();
+                       const MeshLimits& limits, std::vector<glm::dvec3>* left) {
+    return Refiner(mesh, tape, step, sharp, limits).run(left);
 }
 
 }  // namespace edgewise::sdf

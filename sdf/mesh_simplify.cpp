@@ -10,6 +10,7 @@
 
 #include "sdf/evaluate.h"
 #include "sdf/mesh_embedding.h"
+#include "sdf/surface_distance.h"
 #include "sdf/triangle_tree.h"
 
 namespace edgewise::sdf {
@@ -134,26 +135,58 @@ class Simplifier {
         }
         return worst;
     }
-    bool staysNear(std::uint32_t v, std::uint32_t u) const {
+    bool staysNear(std::uint32_t v, std::uint32_t u) {
         double bent = 1.0;
         for (const glm::dvec3& normal : normals_) bent = std::min(bent, glm::dot(normal, normals_[0]));
-        const double limit = bent > kSmooth ? near_->limits.smooth : near_->limits.sharp;
+        const bool smooth = bent > kSmooth;
         fan_.clear();
         for (const std::uint32_t n : around_[v]) {
             Triangle t = mesh_.triangles[n];
             if (holds(t, u)) continue;
             std::replace(t.begin(), t.end(), v, u);
             fan_.push_back(t);
-            if (isOff((at(t[0]) + at(t[1]) + at(t[2])) / 3.0, limit)) return false;
+            const glm::dvec3 centre = (at(t[0]) + at(t[1]) + at(t[2])) / 3.0;
+            if (isOff(centre,
+                      limitFor(centre,
+                               std::max({glm::distance(centre, at(t[0])), glm::distance(centre, at(t[1])),
+                                         glm::distance(centre, at(t[2]))}),
+                               smooth)))
+                return false;
         }
         for (const std::uint32_t w : neighbours_)
-            if (w != u && isOff(0.5 * (at(u) + at(w)), limit)) return false;
+            if (const glm::dvec3 middle = 0.5 * (at(u) + at(w));
+                w != u && isOff(middle, limitFor(middle, glm::distance(middle, at(u)), smooth)))
+                return false;
+        const double limit = limitFor(at(v), 0.0, smooth);
+        if (near_->limits.most_off && !smooth) return staysByLeft(v, limit);
         if (isLeft(at(v), limit)) return false;
         return std::none_of(neighbours_.begin(), neighbours_.end(),
                             [&](std::uint32_t w) { return isLeft(0.5 * (at(v) + at(w)), limit); });
     }
+    /// By a sharp edge, which the field's value does not tell from its sides: what has gone before counts
+    /// too.
+    bool staysByLeft(std::uint32_t v, double limit) {
+        double most = distanceFrom(at(v));
+        for (const std::uint32_t w : neighbours_) most = std::max(most, distanceFrom(0.5 * (at(v) + at(w))));
+        left_.resize(around_.size(), 0.0);
+        const double sum = left_[v] + most;
+        if (sum > limit) return false;
+        for (const std::uint32_t w : neighbours_) left_[w] = std::max(left_[w], sum);
+        return true;
+    }
+    double distanceFrom(const glm::dvec3& p) const {
+        double least2 = HUGE_VAL;
+        for (const Triangle& t : fan_)
+            least2 = std::min(least2, squaredDistance(p, at(t[0]), at(t[1]), at(t[2])));
+        return std::sqrt(least2);
+    }
     bool isOff(const glm::dvec3& p, double limit) const {
+        if (near_->limits.most_off) return distanceBy(near_->tape, p, limit) > limit;
         return std::abs(valueAt(near_->tape(p), p)) > limit;
+    }
+    double limitFor(const glm::dvec3& p, double radius, bool smooth) const {
+        const MeshLimits limits = near_->limits.within(p, radius);
+        return smooth ? limits.smooth : limits.sharp;
     }
     /// The new triangles are further away from what was there.
     bool isLeft(const glm::dvec3& p, double limit) const {
@@ -249,7 +282,8 @@ class Simplifier {
     const std::vector<bool>& kept_;
     const NearSurface* near_;
     const double flat_;
-    mutable std::vector<Triangle> fan_;
+    std::vector<Triangle> fan_;
+    std::vector<double> left_;  ///< by vertex: how far sharp edges around have moved
     std::vector<std::vector<std::uint32_t>> around_;
     std::vector<bool> asked_, changed_;
     std::vector<glm::dvec3> normals_;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sdf/mesh_lattice.h"
+#include "sdf/most_off.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise::sdf {
@@ -14,9 +15,9 @@ struct MeshRequest {
     /// Values change no faster than the tape says (check_lipschitz); false: intervals find the surface.
     bool bound_holds = true;
     bool attributes = true;  ///< normals too
-    /// Dual contouring: how far mesh and surface may be apart, in world units, as far as cells can be divided
-    /// for it; none: a small part of a cell.
-    std::optional<double> most_off = {};
+    /// Dual contouring: how far mesh and surface may be apart, as far as cells can be divided for it; none: a
+    /// small part of a cell.
+    std::optional<MostOff> most_off = {};
     std::size_t most_bricks = std::size_t(1) << 20;  ///< cells are divided no further when there are more
 };
 
@@ -28,6 +29,7 @@ struct MeshCounts {
     std::uint64_t turned = 0;             ///< corners in wedges thinner than cells
     std::uint64_t debris = 0;             ///< closed surfaces left out that sampling had cut off
     std::uint64_t added = 0;              ///< vertices where edges were off the surface
+    double bricks_needed = 0.0;           ///< at least, where that is more than there may be
 };
 
 /// Marching cubes (Lorensen and Cline 1987), loops instead of a table: faces with two ways to go are decided

@@ -48,8 +48,9 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
         options.resolution =
             static_cast<int>(parseInteger("--resolution", *arguments.resolution, 4, sdf::kMostResolution));
     if (arguments.max_error) {
-        options.most_off = parseNumber("--max-error", *arguments.max_error);
-        if (!(*options.most_off > 0.0))
+        const double most_off = parseNumber("--max-error", *arguments.max_error);
+        options.most_off = most_off;
+        if (!(most_off > 0.0))
             throw InputError("--max-error", fmt::format("'{}' is not above 0", *arguments.max_error));
         if (!arguments.resolution) options.resolution = kFirstResolution;
     }
@@ -58,11 +59,12 @@ PolygonizeOptions optionsOf(const PolygonizeArguments& arguments) {
     return options;
 }
 
-Polygonized meshOf(const Scene& scene, const PolygonizeOptions& options, bool check,
+Polygonized meshOf(const Scene& scene, const PolygonizeOptions& options,
+                   const std::optional<std::string>& amount, bool check,
                    std::optional<MeshDistance>& distance) {
     if (options.most_off) {
         MeasuredMesh measured =
-            polygonizeWithin(*options.most_off, "--max-error", scene, options, throwIfInterrupted);
+            polygonizeWithin(*options.most_off, *amount, "--max-error", scene, options, throwIfInterrupted);
         distance = measured.distance;
         return std::move(measured.made);
     }
@@ -105,7 +107,7 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
         options.box.reset();  // of what is left, the cap is the bounds
     }
     std::optional<MeshDistance> distance;
-    const Polygonized made = meshOf(scene, options, !arguments.no_check, distance);
+    const Polygonized made = meshOf(scene, options, arguments.max_error, !arguments.no_check, distance);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
     const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");

@@ -36,7 +36,7 @@ void judgeOnMesh(Row& row, const ImageBuffer& picture, const MeshReference& refe
                  const MadeOfMeshes& made) {
     row.reference_error = made.own_error;
     const MeshReport& first = reference.levels.front().mesh;
-    if (row.mesh && row.mesh->mesher == first.mesher && row.mesh->asked_world == first.asked_world)
+    if (row.mesh && row.mesh->mesher == first.mesher && row.mesh->asked_px == first.asked_px)
         row.antialiasing = distanceBetween(picture, made.first);
 }
 
@@ -102,7 +102,7 @@ MeshReferenceMaker::Made MeshReferenceMaker::make(const Json& filter, Row& row, 
         ImageBuffer finer = pictureOf(level, filter, row, progress);
         const PictureDistance moved = distanceBetween(made.finest, finer);
         made.own_error =
-            leftOf(moved, facts_.levels[level - 1].mesh.errorPx(), facts_.levels[level].mesh.errorPx());
+            leftOf(moved, facts_.levels[level - 1].mesh.error_px, facts_.levels[level].mesh.error_px);
         made.finest = std::move(finer);
         if (decided_) continue;
         facts_.levels[level].moved = moved, facts_.levels[level].left = made.own_error;

@@ -22,9 +22,9 @@ std::string headWords(const Comparison& c) {
         "field and of the first mesh, within {:.3g} px of the surface, are {:.3f} and {:.3f} px apart at "
         "most, "
         "{:.3f} px on average.",
-        c.reference, reference.levels.size(), last.mesh.triangles, last.mesh.errorPx(),
+        c.reference, reference.levels.size(), last.mesh.triangles, last.mesh.error_px,
         shown(last.moved, "nothing, being alone"), shown(last.left, "nobody knows how far"), reference.stated,
-        reference.reached() ? "" : ", which is not reached", reference.levels.front().mesh.errorPx(),
+        reference.reached() ? "" : ", which is not reached", reference.levels.front().mesh.error_px,
         reference.silhouette_there_px, reference.silhouette_back_px, reference.silhouette_mean_px);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sdf/mesh_lattice.h"
+#include "sdf/most_off.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise {
@@ -15,6 +16,7 @@ namespace edgewise {
 struct MeshDistance {
     double mesh_to_surface = 0.0, surface_to_mesh = 0.0;
     glm::dvec3 worst_on_surface{0.0};
+    double worst_part = 0.0;  ///< the largest of all distances over what is allowed at their places
     std::size_t mesh_samples = 0, surface_samples = 0;
     double mesh_spacing = 0.0, surface_spacing = 0.0;
 };
@@ -43,10 +45,12 @@ MeshQuality qualityOf(const sdf::SurfaceMesh& mesh);
 std::optional<std::size_t> selfIntersections(const sdf::SurfaceMesh& mesh);
 
 /// From places on the mesh to the surface: along the gradient to where the value is 0. From places on the
-/// surface, found on random lines through the lattice's cells, to the mesh. `per_cell`: lines a cell.
+/// surface, found on random lines through the lattice's cells, to the mesh. `per_cell`: lines a cell. On
+/// a triangle the least is allowed that is allowed within `mesh_spacing` of the place, its own.
 /// None without CGAL.
 std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::Tape& tape,
-                                       const sdf::Lattice& lattice, bool bound_holds, int per_cell);
+                                       const sdf::Lattice& lattice, bool bound_holds, int per_cell,
+                                       const sdf::MostOff* allowed = nullptr);
 
 /// As --stats and the command print it.
 nlohmann::json jsonOf(const MeshQuality& quality);

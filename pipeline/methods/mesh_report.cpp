@@ -7,10 +7,10 @@ nlohmann::ordered_json meshJson(const std::optional<MeshReport>& mesh) {
     return {{"mesher", mesh->mesher},
             {"triangles", mesh->triangles},
             {"pixel", mesh->pixel_world},
-            {"max_error", mesh->asked_world},
+            {"max_error_px", mesh->asked_px},
             {"mesh_to_surface", mesh->mesh_to_surface},
             {"surface_to_mesh", mesh->surface_to_mesh},
-            {"error_px", mesh->errorPx()},
+            {"error_px", mesh->error_px},
             {"cell", mesh->cell_world},
             {"seconds", mesh->seconds}};
 }
@@ -20,7 +20,8 @@ std::optional<MeshReport> meshFromJson(const nlohmann::json& json) {
     MeshReport mesh;
     mesh.mesher = json.at("mesher");
     mesh.triangles = json.at("triangles");
-    mesh.pixel_world = json.at("pixel"), mesh.asked_world = json.at("max_error");
+    mesh.pixel_world = json.at("pixel"), mesh.asked_px = json.at("max_error_px");
+    mesh.error_px = json.at("error_px");
     mesh.mesh_to_surface = json.at("mesh_to_surface"), mesh.surface_to_mesh = json.at("surface_to_mesh");
     mesh.cell_world = json.at("cell"), mesh.seconds = json.at("seconds");
     return mesh;

@@ -79,23 +79,21 @@ struct PlanEntry {
 
 /// How an SDF scene becomes triangles.
 struct MeshChoice {
-    double error_px = 0.2;  ///< mesh and surface are no further apart, in pixels where that is closest
+    double error_px = 0.2;  ///< mesh and surface are no further apart, in pixels, where they are seen
     std::string mesher = "dual";
 };
 
 /// The mesh that a triangle method was given in the place of an SDF scene.
 struct MeshReport {
     std::string mesher;
-    std::size_t triangles = 0;     ///< beside planes
-    double pixel_world = 0.0;      ///< a pixel where the surface is closest, in world units
-    double asked_world = 0.0;      ///< how far mesh and surface may be apart
-    double mesh_to_surface = 0.0;  ///< measured
+    std::size_t triangles = 0;  ///< beside planes
+    double pixel_world = 0.0;   ///< a pixel where the mesh is closest to the eye, in world units; 0: unseen
+    double asked_px = 0.0;      ///< how far mesh and surface may be apart
+    double error_px = 0.0;      ///< measured, by the pixels of each place
+    double mesh_to_surface = 0.0;  ///< measured in world units, also where nothing is seen
     double surface_to_mesh = 0.0;
     double cell_world = 0.0;  ///< of the mesher's lattice
     double seconds = 0.0;     ///< in all; part of setup_seconds
-    double errorPx() const {
-        return pixel_world > 0.0 ? std::max(mesh_to_surface, surface_to_mesh) / pixel_world : 0.0;
-    }
 };
 
 struct MethodResult {

@@ -40,7 +40,7 @@ TEST(MeshReference, AMethodOnAFinerMeshKeepsItsOwnWords) {
 TEST(MeshReference, RowsOnTheFirstMeshAreJudgedOnItToo) {
     MeshReference reference;
     reference.levels.resize(2);
-    reference.levels[0].mesh.mesher = "dual", reference.levels[0].mesh.asked_world = 0.004;
+    reference.levels[0].mesh.mesher = "dual", reference.levels[0].mesh.asked_px = 0.004;
     const MadeOfMeshes made{gray(0.5), gray(0.6), {1e-3, 2e-3, {}}};
     Row row;
     judgeOnMesh(row, gray(0.52), reference, made);
@@ -49,7 +49,7 @@ TEST(MeshReference, RowsOnTheFirstMeshAreJudgedOnItToo) {
     row.mesh = reference.levels[0].mesh;
     judgeOnMesh(row, gray(0.52), reference, made);
     EXPECT_NEAR(row.antialiasing->rmse, 0.02, 1e-12);
-    row.mesh->asked_world = 0.002;
+    row.mesh->asked_px = 0.002;
     row.antialiasing.reset();
     judgeOnMesh(row, gray(0.52), reference, made);
     EXPECT_FALSE(row.antialiasing);

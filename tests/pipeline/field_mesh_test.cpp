@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
+#include <random>
 
 #include "pipeline/error.h"
 #include "pipeline/field_parts.h"
@@ -98,7 +99,7 @@ TEST(FieldMesh, ABallsSilhouetteIsItsEllipse) {
     sdf::Tree& tree = picture.field->tree;
     tree.root = at(tree, centre, tree.add(Kind::kSphere, {0.8}));
     const FieldMesh mesh = meshForFilm(parseMethod("nsaa"), picture.input());
-    EXPECT_LE(mesh.report.errorPx(), kBar);
+    EXPECT_LE(mesh.report.error_px, kBar);
     const BallOutline truth{glm::dvec3(picture.camera.camera_from_world * glm::dvec4(centre, 1.0)),
                             0.8,
                             36.0 / std::tan(glm::radians(18.0)),
@@ -119,7 +120,7 @@ TEST(FieldMesh, ABallsSilhouetteIsItsEllipse) {
     std::printf("sphere %.4f px, mesh %.4f px off the ellipse; %.4f and %.4f px between them, %zu points\n",
                 worst_field, worst_mesh, both.first_to_second_px, both.second_to_first_px, both.first_points);
     EXPECT_GT(both.first_points, 100u);
-    EXPECT_LE(worst_mesh, mesh.report.errorPx());
+    EXPECT_LE(worst_mesh, mesh.report.error_px);
     EXPECT_LE(both.worst(), kBar);
     EXPECT_LE(both.worst(), worst_field + worst_mesh + 0.01);
 }
@@ -148,7 +149,7 @@ TEST(FieldMesh, NsaaCoversWhatTheEllipseCovers) {
     const double radius = 32.0 / std::tan(glm::radians(18.0)) * sine / std::sqrt(1.0 - sine * sine);
     // A border that is off by no more than the mesh is.
     EXPECT_NEAR(area, glm::pi<double>() * radius * radius,
-                2.0 * glm::pi<double>() * radius * made.mesh->errorPx());
+                2.0 * glm::pi<double>() * radius * made.mesh->error_px);
 }
 
 double difference(const ImageBuffer& a, glm::ivec2 p, const ImageBuffer& b, glm::ivec2 q) {
@@ -238,7 +239,7 @@ TEST(FieldMesh, IsAsFineAsItIsAskedFor) {
     std::size_t before = 0;
     for (const char* method : {"mesh:error=0.4+nsaa", "mesh:error=0.1+nsaa", "mesh:error=0.025+nsaa"}) {
         const MeshReport report = meshForFilm(parseMethod(method), picture.input()).report;
-        EXPECT_LE(report.errorPx(), 1.05 * parseMethod(method).mesh->error_px) << method;
+        EXPECT_LE(report.error_px, 1.05 * parseMethod(method).mesh->error_px) << method;
         EXPECT_GT(report.triangles, before) << method;
         before = report.triangles;
     }
@@ -281,6 +282,77 @@ TEST(FieldMesh, APixelIsAsLargeAsWhatMovesAPointByOne) {
         EXPECT_NEAR(most * footprint.pixelAt(p), 1.0, 0.005);  // directions are 0.04 apart
     }
 }
+
+/// Lower bounds, by points of the balls and of the film.
+TEST(FieldMesh, NoPixelIsSmallerAndNothingSeenIsNearer) {
+    constexpr std::uint64_t kSeed = 7;
+    std::mt19937_64 random(kSeed);
+    std::uniform_real_distribution<double> at(-6.0, 6.0), size(0.0, 2.0), side(-1.0, 1.0);
+    const FieldPicture picture = looking(64, 48);
+    const FilmFootprint footprint(picture.camera, picture.film);
+    std::size_t across = 0, unseen = 0;
+    for (int n = 0; n < 300; ++n) {
+        const glm::dvec3 centre(at(random), at(random), at(random));
+        const double radius = size(random), away = footprint.awayFromView(centre, 0.0);
+        const double least = footprint.leastPixel(centre, radius);
+        EXPECT_GT(least, 0.0);
+        EXPECT_TRUE(!footprint.sees(centre) || away <= 1e-12) << "seed " << kSeed << ", " << n;
+        across += away > 0.0 && away < radius, unseen += away >= radius;
+        for (int m = 0; m < 50; ++m) {
+            const glm::dvec3 way(side(random), side(random), side(random));
+            const glm::dvec3 p = centre + radius * way / std::max(1.0, glm::length(way));
+            EXPECT_GE(footprint.pixelAt(p), least * (1.0 - 1e-12)) << "seed " << kSeed << ", " << n;
+            EXPECT_TRUE(!footprint.sees(p) || glm::distance(p, centre) >= away * (1.0 - 1e-12))
+                << "seed " << kSeed << ", " << n;
+        }
+    }
+    EXPECT_GT(across, 20u);
+    EXPECT_GT(unseen, 100u);
+}
+
+#ifdef EDGEWISE_HAS_ORACLE
+
+/// Far balls have fewer triangles than near ones, those behind the eye and beside the film fewer still; each
+/// seen one is within its own pixels of its closed form.
+TEST(FieldMesh, EachPlaceIsAsFineAsItsOwnPixels) {
+    FieldPicture picture = looking(160, 120);
+    sdf::Tree& tree = picture.field->tree;
+    const glm::dvec3 along = glm::normalize(glm::dvec3(2.0, 1.6, 3.0)),
+                     beside = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0)));
+    const std::vector<glm::dvec3> centres{glm::dvec3(0.0), -16.0 * along - 2.0 * beside, 8.0 * along,
+                                          12.0 * beside};
+    std::vector<std::uint32_t> balls;
+    for (const glm::dvec3& centre : centres)
+        balls.push_back(at(tree, centre, tree.add(Kind::kSphere, {0.7})));
+    tree.root = tree.add(Kind::kUnion, {}, balls);
+    const FieldMesh mesh = meshForFilm(parseMethod("nsaa"), picture.input());
+    EXPECT_LE(mesh.report.error_px, 0.2);
+    const FilmFootprint footprint(picture.camera, picture.film);
+    ASSERT_TRUE(footprint.sees(centres[0]) && footprint.sees(centres[1]));
+    ASSERT_FALSE(footprint.sees(centres[2]) || footprint.sees(centres[3]));
+    std::vector<std::size_t> triangles(centres.size(), 0);
+    double worst_px = 0.0;
+    for (const Geometry& geometry : mesh.scene.geometry)
+        for (const auto& t : geometry.triangles) {
+            const auto& x = geometry.position_world;
+            const glm::dvec3 p = (x[t[0]] + x[t[1]] + x[t[2]]) / 3.0;
+            for (std::size_t ball = 0; ball < centres.size(); ++ball) {
+                if (glm::distance(p, centres[ball]) > 1.0) continue;
+                ++triangles[ball];
+                const double off = std::abs(glm::distance(p, centres[ball]) - 0.7);
+                if (ball < 2) worst_px = std::max(worst_px, off / footprint.pixelAt(p));
+            }
+        }
+    std::printf("near %zu, far %zu, behind %zu, beside %zu triangles; %.3f px at most\n", triangles[0],
+                triangles[1], triangles[2], triangles[3], worst_px);
+    EXPECT_LE(worst_px, mesh.report.error_px * (1.0 + 1e-6) + 1e-4);  // positions are float32
+    EXPECT_LT(3 * triangles[1], triangles[0]);
+    EXPECT_LE(triangles[2], triangles[1]);
+    EXPECT_LE(triangles[3], triangles[1]);
+    for (const std::size_t count : triangles) EXPECT_GE(count, 4u);  // closed
+}
+
+#endif
 
 std::string problemOf(FieldPicture& picture, const std::string& method) {
     try {

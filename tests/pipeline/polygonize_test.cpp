@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
@@ -11,6 +12,7 @@
 #include "pipeline/judge/mesh_quality.h"
 #include "pipeline/load_gltf.h"
 #include "pipeline/polygonize.h"
+#include "pipeline/polygonize_within.h"
 #include "pipeline/write_mesh.h"
 #include "sdf/dual_cells.h"
 #include "sdf/field_scene.h"
@@ -249,7 +251,8 @@ TEST(Polygonize, CellsOfManySizesMeetWithoutSeams) {
             for (std::uint32_t b = 0, count = std::uint32_t(bricks.bricks.size()); b < count; ++b)
                 if (!bricks.bricks[b].divided && random() % 4 == 0)
                     sdf::divideBrick(tape, lattice, true, b, bricks);
-        const sdf::DualComplex complex = sdf::dualComplex({tape, lattice}, std::move(bricks));
+        const sdf::DualComplex complex =
+            sdf::dualComplex({tape, lattice}, sdf::TapeAt(tape, lattice, true), std::move(bricks));
         // Polygons as they are, closed: each side is another's, the other way round.
         for (std::uint32_t p = 0; p < complex.polygons.size(); ++p) {
             const sdf::DualPolygon& polygon = complex.polygons[p];
@@ -289,6 +292,59 @@ TEST(Polygonize, DividesCellsUntilTheErrorIsMet) {
     const Polygonized thin = polygonize(sceneOf(plate), options);
     expectClean(thin, "plate");
     EXPECT_NEAR(qualityOf(thin.mesh).volume, 0.009, 1e-6);
+}
+
+TEST(Polygonize, SaysSoonWhatCannotBeMet) {
+    const Scene ball = sceneOf(shape(Kind::kSphere, {1.0}));
+    PolygonizeOptions options;
+    options.resolution = 32;
+    std::string problem;
+    try {
+        polygonizeWithin(1e-9, "1e-9", "--max-error", ball, options);
+    } catch (const FailureError& error) {
+        problem = error.what();
+    }
+    EXPECT_NE(problem.find("1e-9 is not met"), std::string::npos) << problem;
+    EXPECT_EQ(problem.find('\n'), std::string::npos);
+    // What is flat is exact, however little is asked for.
+    const Scene box = sceneOf(shape(Kind::kBox, {1.3, 0.9, 1.7}));
+    try {
+        EXPECT_EQ(polygonizeWithin(1e-9, "1e-9", "--max-error", box, options).made.mesh.triangles.size(),
+                  12u);
+    } catch (const FailureError& error) {
+        EXPECT_NE(std::string(error.what()).find("CGAL"), std::string::npos) << error.what();
+    }
+}
+
+/// Less may be off in one half of the world than in the other.
+TEST(Polygonize, CellsFollowWhatIsAllowedAtTheirPlaces) {
+    const sdf::Tree tree = shape(Kind::kTorus, {1.0, 0.35});
+    PolygonizeOptions options;
+    options.resolution = 24;
+    const auto allowedAt = [](const glm::dvec3& p, double radius) {
+        return std::clamp(0.05 * (p.x - radius), 5e-4, 1e-2);
+    };
+    const sdf::MostOff allowed{sdf::MostOff::LeastWithin(allowedAt)};
+    MeasuredMesh measured;
+    try {
+        measured = polygonizeWithin(allowed, "what is allowed", "test", sceneOf(tree), options);
+    } catch (const FailureError& error) {
+        ASSERT_NE(std::string(error.what()).find("no CGAL"), std::string::npos) << error.what();
+        GTEST_SKIP() << error.what();
+    }
+    EXPECT_LE(measured.distance.worst_part, 1.0);
+    const Polygonized& made = measured.made;
+    expectClean(made, "two sizes");
+    std::size_t fine = 0, coarse = 0;
+    for (const sdf::Triangle& t : made.mesh.triangles) {
+        const glm::dvec3 centre = (made.mesh.position_world[t[0]] + made.mesh.position_world[t[1]] +
+                                   made.mesh.position_world[t[2]]) /
+                                  3.0;
+        const double off = std::abs(std::hypot(std::hypot(centre.x, centre.z) - 1.0, centre.y) - 0.35);
+        EXPECT_LE(off, allowedAt(centre, 0.0));
+        ++(centre.x < 0.0 ? fine : coarse);
+    }
+    EXPECT_GT(fine, 2 * coarse);
 }
 
 TEST(Polygonize, RoundPartsHaveNoMoreTrianglesThanTheyNeed) {
