@@ -110,8 +110,7 @@ std::optional<ClosestApproach> passedEdge(const FieldRay& ray, const Asked& a, c
     const glm::dvec3 across = glm::cross(d, edge);
     const double size = glm::dot(edge, edge), turned = glm::dot(across, across);
     if (!(turned > size * (kAcross * kAcross))) return std::nullopt;
-    // From the ray's point at a.t: the planes' heights, the point of their edge, and the foot of the ray
-    // there.
+    // From the ray's point at a.t: the planes' heights, then a point of their edge.
     const double to_a = -a.distance(), to_b = glm::dot(b.outwards_world, d) * (b.t - a.t) - b.distance();
     const glm::dvec3 on_edge =
         (to_a * glm::cross(b.outwards_world, edge) + to_b * glm::cross(edge, a.outwards_world)) / size;
