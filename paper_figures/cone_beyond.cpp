@@ -15,7 +15,7 @@ namespace {
 struct Effort {
     std::vector<std::string> scenes{"primitives", "random-box", "random-shape", "sparse-shape",
                                     "atrium",     "slabs",      "wires",        "thin"};
-    int width = 640, height = 360, reference_side = 16, facts_side = 8;
+    int width = 320, height = 180, reference_side = 16, facts_side = 8;
     glm::ivec2 part{40, 28};
 };
 

@@ -16,7 +16,7 @@ constexpr double kPartWidth = PanelGrid().width, kPartHeight = PanelGrid().heigh
                  kWords = PanelGrid::kWords;
 
 struct Effort {
-    int width = 1280, height = 720, reference_side = 8, facts_side = 4;
+    int width = 640, height = 360, reference_side = 8, facts_side = 4;
     glm::ivec2 part{40, 28};
 };
 

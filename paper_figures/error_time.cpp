@@ -29,7 +29,7 @@ struct Effort {
 };
 
 Effort fullEffort() {
-    Effort effort{3, 30.0, {}, {}, {}};
+    Effort effort{3, 10.0, {}, {}, {}};
     for (const SceneInfo& scene : sceneNames()) effort.scenes.push_back(scene.name);
     effort.triangles = {512,
                         512,
@@ -54,8 +54,8 @@ Effort fullEffort() {
                          "nsaa,device=vulkan",
                          "ssaa:4,device=vulkan",
                          "msaa:4,device=vulkan"}};
-    effort.field = {320,
-                    180,
+    effort.field = {240,
+                    135,
                     "ssaa:16,device=cpu",
                     {"none", "ssaa:2", "ssaa:3", "ssaa:4", "ssaa:8", "smaa", "fxaa", "sphere", "ctss",
                      "ctss-r", "ctss-x", "ctss+ssaa:2", "lottes", "path:4"}};

@@ -9,7 +9,7 @@ namespace edgewise::figures {
 
 struct PerformanceEffort {
     int runs = 5;
-    double budget_seconds = 40.0;  ///< a method and scene
+    double budget_seconds = 15.0;  ///< a method and scene
     std::size_t triad_doubles = 0;
     std::vector<PerformanceScene> scenes;
     std::vector<std::string> methods;

@@ -19,8 +19,8 @@ namespace {
 const std::vector<std::string> kFieldSavings{"prepass", "prune", "convex"};
 
 struct Effort {
-    int runs = 5;
-    double budget_seconds = 40.0;
+    int runs = 3;
+    double budget_seconds = 15.0;
     std::vector<std::string> scenes;
     ComparedPicture triangles{"", 512, 512, "gaussian", 2.0}, field{"", 480, 270, "box", 0.5};
 };
