@@ -109,7 +109,8 @@ class FilmMesher {
 FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store) {
     const std::string method = fmt::format("method '{}'", spec.typed);
     if (input.scene.field->tree.empty() && input.scene.field->glsl)
-        throw InputError(method, fmt::format("needs triangles, and '{}' is GLSL, which is not polygonized",
+        throw InputError(method, fmt::format("needs triangles, and '{}' is GLSL: `edgewise polygonize` makes "
+                                             "a mesh of it, which is a scene of its own",
                                              input.scene.source));
     return FilmMesher(method, spec.mesh.value_or(MeshChoice{}), input).make(store);
 }

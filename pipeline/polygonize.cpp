@@ -8,6 +8,7 @@
 
 #include "pipeline/cgal_mesher.h"
 #include "pipeline/error.h"
+#include "pipeline/polygonize_map.h"
 #include "sdf/field_scene.h"
 #include "sdf/scene_error.h"
 
@@ -21,7 +22,6 @@ constexpr double kBytesPerBrick = 60000.0;
 
 const sdf::FieldScene& fieldOf(const Scene& scene) {
     if (!scene.field) throw InputError(scene.source, "is no SDF scene");
-    if (scene.field->tree.empty()) throw InputError(scene.source, "raw GLSL is not polygonized yet");
     return *scene.field;
 }
 
@@ -35,9 +35,7 @@ WorldBox boxOf(const Scene& scene) {
                          "it goes on beyond");
     WorldBox box;
     for (int axis = 0; axis < 3; ++axis) box.low[axis] = bounds.low[axis], box.high[axis] = bounds.high[axis];
-    const glm::dvec3 size = box.high - box.low;
-    const double margin = kMargin * std::max({size.x, size.y, size.z, 1e-9});
-    return {box.low - margin, box.high + margin};
+    return withMargin(box);
 }
 
 double cpuSeconds() {
@@ -50,7 +48,16 @@ double cpuSeconds() {
 double machineBytes() {
     return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
-void requireMemory(const sdf::Lattice& lattice) {
+
+}  // namespace
+
+WorldBox withMargin(const WorldBox& box) {
+    const glm::dvec3 size = box.high - box.low;
+    const double margin = kMargin * std::max({size.x, size.y, size.z, 1e-9});
+    return {box.low - margin, box.high + margin};
+}
+
+void requireMeshMemory(const sdf::Lattice& lattice) {
     const glm::dvec3 bricks(lattice.bricks());
     const double needed = kBytesPerBrick * (bricks.x * bricks.y + bricks.y * bricks.z + bricks.z * bricks.x) +
                           4.0 * bricks.x * bricks.y * bricks.z;
@@ -61,8 +68,6 @@ void requireMemory(const sdf::Lattice& lattice) {
                                   lattice.cells.x, lattice.cells.y, lattice.cells.z, needed / 0x1p20,
                                   machine / 0x1p20));
 }
-
-}  // namespace
 
 Mesher parseMesher(const std::string& name) {
     if (name == "dual") return Mesher::kDual;
@@ -83,14 +88,14 @@ Scene cappedAt(const Scene& scene, const WorldBox& box) {
     return capped;
 }
 
-Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
-    const sdf::FieldScene& field = fieldOf(scene);
+namespace {
+
+Polygonized polygonizeTree(const Scene& scene, const PolygonizeOptions& options) {
+    const sdf::FieldScene& field = *scene.field;
     const WorldBox box = options.box ? *options.box : boxOf(scene);
     Polygonized result;
     result.lattice = sdf::latticeOf(box.low, box.high, options.resolution);
-    requireMemory(result.lattice);
-    const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = cpuSeconds();
+    requireMeshMemory(result.lattice);
     try {
         const sdf::Tape tape = sdf::lower(field.tree);
         sdf::MeshRequest request{tape, result.lattice, field.bound_holds};
@@ -109,6 +114,16 @@ Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
     } catch (const sdf::SceneError& error) {
         throw InputError(scene.source, error.what());
     }
+    return result;
+}
+
+}  // namespace
+
+Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
+    const sdf::FieldScene& field = fieldOf(scene);
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpuSeconds();
+    Polygonized result = field.tree.empty() ? polygonizeMap(scene, options) : polygonizeTree(scene, options);
     result.cpu_seconds = cpuSeconds() - cpu_start;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (result.mesh.triangles.empty())

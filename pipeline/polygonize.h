@@ -1,11 +1,15 @@
 // Meshes of SDF scenes.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/scene.h"
+#include "sdf/point_field.h"
 #include "sdf/polygonize.h"
 
 namespace edgewise {
@@ -24,7 +28,9 @@ struct PolygonizeOptions {
     std::optional<WorldBox>
         box;  ///< where the surface is looked for; none: the scene's bounds and a little more
     std::optional<sdf::MostOff>
-        most_off;  ///< how far mesh and surface may be apart; dual contouring divides for it
+        most_off;      ///< how far mesh and surface may be apart; dual contouring of a tree divides for it
+    bool cap = false;  ///< of raw GLSL: what is within the box alone, as cappedAt() has of trees
+    std::function<void()> between = {};  ///< of raw GLSL: called again and again; may throw
 };
 
 struct Polygonized {
@@ -32,13 +38,21 @@ struct Polygonized {
     sdf::Lattice lattice;
     sdf::MeshCounts counts;
     double seconds = 0.0, cpu_seconds = 0.0;
+    std::shared_ptr<const sdf::PointField> points;  ///< of raw GLSL: what was meshed
+    std::vector<std::string> notes;                 ///< one sentence each
 };
 
-/// The scene's solid within the box alone, closed where the box cuts it; what it gets there has no material
-/// of its own. Throws InputError naming the scene: it is no SDF scene or raw GLSL.
+/// The box and a little more around it.
+WorldBox withMargin(const WorldBox& box);
+
+/// Throws FailureError where no mesh in the lattice could fit into memory.
+void requireMeshMemory(const sdf::Lattice& lattice);
+
+/// A tree's solid within the box alone, closed where the box cuts it; what it gets there has no material of
+/// its own.
 Scene cappedAt(const Scene& scene, const WorldBox& box);
 
-/// Throws InputError naming the scene: it is no SDF scene or raw GLSL, is unbounded and has no box, is empty,
+/// Throws InputError naming the scene: it is no SDF scene, is unbounded and has no box, is empty,
 /// reaches the box's end; FailureError where the mesh would not fit into memory.
 Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options);
 

@@ -42,6 +42,7 @@ constexpr double kLess = 0.7;
 
 std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scene& scene,
                                              const sdf::MostOff* allowed) {
+    if (made.points) return distanceOf(made.mesh, *made.points, made.lattice, kLinesPerCell, allowed);
     return distanceOf(made.mesh, sdf::lower(scene.field->tree), made.lattice, scene.field->bound_holds,
                       kLinesPerCell, allowed);
 }
@@ -60,7 +61,7 @@ MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& a
         if (n == kTries || options.resolution > sdf::kMostResolution / 2)
             fail(amount, asked, made, *distance);
         options.most_off = options.most_off->times(kLess);
-        if (n > 1 || options.mesher != Mesher::kDual) options.resolution *= 2;
+        if (n > 1 || options.mesher != Mesher::kDual || made.points) options.resolution *= 2;
     }
 }
 

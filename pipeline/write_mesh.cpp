@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <unordered_map>
 
@@ -40,18 +41,22 @@ gltf::Material materialOf(const sdf::SurfaceMaterial& from) {
 
 /// One material's triangles.
 struct Primitive {
-    std::vector<float> positions, normals;
+    using Look = std::array<float, 6>;  ///< a normal and a colour
+    std::vector<float> positions, normals, colors;
     std::vector<std::uint32_t> indices;
-    std::map<std::pair<std::uint32_t, std::array<float, 3>>, std::uint32_t> vertices;
+    std::map<std::pair<std::uint32_t, Look>, std::uint32_t> vertices;
 
-    void add(std::uint32_t vertex, const glm::dvec3& position, const glm::dvec3& normal) {
-        const std::array<float, 3> n{float(normal.x), float(normal.y), float(normal.z)};
-        const auto [found, is_new] =
-            vertices.try_emplace({vertex, n}, static_cast<std::uint32_t>(positions.size() / 3));
+    void add(std::uint32_t vertex, const glm::dvec3& position, const glm::dvec3& normal,
+             const std::optional<glm::dvec3>& color) {
+        const glm::vec3 n(normal), c(glm::clamp(color.value_or(glm::dvec3(0.0)), 0.0, 1.0));
+        const auto [found, is_new] = vertices.try_emplace({vertex, Look{n.x, n.y, n.z, c.x, c.y, c.z}},
+                                                          static_cast<std::uint32_t>(positions.size() / 3));
         indices.push_back(found->second);
         if (!is_new) return;
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i < 3; ++i) {
             positions.push_back(static_cast<float>(position[i])), normals.push_back(n[i]);
+            if (color) colors.push_back(c[i]);
+        }
     }
 };
 
@@ -82,14 +87,19 @@ class Writer {
         const auto& materials = scene_.field->materials;
         for (const sdf::SurfaceMaterial& material : materials)
             model_.materials.push_back(materialOf(material));
+        // Colours of vertices are all there is.
+        if (!mesh_.color.empty())
+            model_.materials[0].pbrMetallicRoughness.baseColorFactor = {1.0, 1.0, 1.0, 1.0};
         for (const auto& material : model_.materials)
             if (!material.extensions.empty()) model_.extensionsUsed = {"KHR_materials_unlit"};
         std::vector<Primitive> primitives(materials.size());
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const std::size_t material = std::min<std::size_t>(mesh_.material[t], materials.size() - 1);
             for (int i = 0; i < 3; ++i)
-                primitives[material].add(mesh_.triangles[t][i], mesh_.position_world[mesh_.triangles[t][i]],
-                                         mesh_.normal_world[t][i]);
+                primitives[material].add(
+                    mesh_.triangles[t][i], mesh_.position_world[mesh_.triangles[t][i]],
+                    mesh_.normal_world[t][i],
+                    mesh_.color.empty() ? std::nullopt : std::optional(mesh_.color[t][i]));
         }
         gltf::Mesh mesh;
         mesh.name = "surface";
@@ -108,6 +118,7 @@ class Writer {
         primitive.material = static_cast<int>(material);
         primitive.attributes["POSITION"] = addVectors(from.positions, true);
         primitive.attributes["NORMAL"] = addVectors(from.normals, false);
+        if (!from.colors.empty()) primitive.attributes["COLOR_0"] = addVectors(from.colors, false);
         primitive.indices = addAccessor(from.indices.data(), from.indices.size() * sizeof(std::uint32_t),
                                         from.indices.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                                         TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);

@@ -3,8 +3,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "sdf/brick_source.h"
 #include "sdf/mesh_attributes.h"
-#include "sdf/mesh_crossings.h"
 #include "sdf/polygonize.h"
 #include "sdf/scene_error.h"
 
@@ -74,22 +74,17 @@ class LeastArea {
 
 class MarchingCubes {
   public:
-    MarchingCubes(const MeshRequest& request, MeshCounts& counts)
-        : request_(request),
-          lattice_(request.lattice),
-          tape_(request.tape, lattice_, request.bound_holds),
-          counts_(counts) {}
+    MarchingCubes(const Lattice& lattice, const BrickList& bricks, const BrickSource& source,
+                  MeshCounts& counts)
+        : lattice_(lattice), bricks_(bricks), source_(source), counts_(counts) {}
 
     SurfaceMesh run() {
-        BrickList bricks = findBricks(request_.tape, lattice_, request_.bound_holds);
-        counts_.nodes = bricks.nodes, counts_.pruned = bricks.pruned, counts_.bricks = bricks.bricks.size();
-        requireClosed(bricks.open);
-        bricks_ = &bricks;
-        vertex_.assign(bricks.bricks.size() * kOwned, kNoBrick);
-        for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCrossings(b);
-        for (std::size_t b = 0; b < bricks.bricks.size(); ++b) takeCells(b);
-        findMaterials(tape_, mesh_);
-        if (request_.attributes) findNormals(tape_, mesh_);
+        counts_.nodes = bricks_.nodes, counts_.pruned = bricks_.pruned;
+        counts_.bricks = bricks_.bricks.size();
+        requireClosed(bricks_.open);
+        vertex_.assign(bricks_.bricks.size() * kOwned, kNoBrick);
+        for (std::size_t b = 0; b < bricks_.bricks.size(); ++b) takeCrossings(b);
+        for (std::size_t b = 0; b < bricks_.bricks.size(); ++b) takeCells(b);
         return std::move(mesh_);
     }
 
@@ -104,12 +99,12 @@ class MarchingCubes {
         const glm::ivec3 count = lattice_.bricks(), brick = corner / kBrickCells, in = corner % kBrickCells;
         const std::size_t at = brick.x + std::size_t(count.x) * (brick.y + std::size_t(count.y) * brick.z);
         const std::size_t edge = axis + 3 * (in.x + kBrickCells * (in.y + kBrickCells * in.z));
-        return vertex_[bricks_->at[at] * kOwned + edge];
+        return vertex_[bricks_.at[at] * kOwned + edge];
     }
 
     void takeCrossings(std::size_t b) {
-        const Brick& brick = bricks_->bricks[b];
-        crossings_.read(lattice_, brick, tape_);
+        const Brick& brick = bricks_.bricks[b];
+        source_.read(b, crossings_);
         requireClosed(crossings_.open(lattice_, brick));
         for (int n = 0; n < kBrickCells * kBrickCells * kBrickCells; ++n) {
             const glm::ivec3 corner(n % kBrickCells, n / kBrickCells % kBrickCells,
@@ -124,8 +119,8 @@ class MarchingCubes {
     }
 
     void takeCells(std::size_t b) {
-        const Brick& brick = bricks_->bricks[b];
-        values_.readValues(lattice_, brick);
+        const Brick& brick = bricks_.bricks[b];
+        source_.readValues(b, values_);
         for (int n = 0; n < kBrickCells * kBrickCells * kBrickCells; ++n) {
             const glm::ivec3 cell(n % kBrickCells, n / kBrickCells % kBrickCells,
                                   n / (kBrickCells * kBrickCells));
@@ -164,11 +159,10 @@ class MarchingCubes {
             mesh_.triangles.push_back({vertex[edges[(i + 1) % edges.size()]], vertex[edges[i]], hub});
     }
 
-    const MeshRequest& request_;
     const Lattice& lattice_;
-    const TapeAt tape_;
+    const BrickList& bricks_;
+    const BrickSource& source_;
     MeshCounts& counts_;
-    const BrickList* bricks_ = nullptr;
     BrickCrossings crossings_, values_;
     std::vector<std::uint32_t> vertex_;
     SurfaceMesh mesh_;
@@ -176,8 +170,19 @@ class MarchingCubes {
 
 }  // namespace
 
+SurfaceMesh marchBricks(const Lattice& lattice, const BrickList& bricks, const BrickSource& source,
+                        MeshCounts& counts) {
+    return MarchingCubes(lattice, bricks, source, counts).run();
+}
+
 SurfaceMesh marchingCubes(const MeshRequest& request, MeshCounts& counts) {
-    return MarchingCubes(request, counts).run();
+    const TapeAt tape(request.tape, request.lattice, request.bound_holds);
+    const BrickList bricks = findBricks(request.tape, request.lattice, request.bound_holds);
+    SurfaceMesh mesh =
+        marchBricks(request.lattice, bricks, TapeBricks(request.lattice, bricks, tape), counts);
+    findMaterials(tape, mesh);
+    if (request.attributes) findNormals(tape, mesh);
+    return mesh;
 }
 
 }  // namespace edgewise::sdf

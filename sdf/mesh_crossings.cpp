@@ -3,51 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "sdf/edge_roots.h"
 #include "sdf/evaluate.h"
 
 namespace edgewise::sdf {
 namespace {
 
-constexpr int kMostRootSteps = 100;
 /// Of an edge: where the root is looked for no more.
 constexpr double kRootWidth = 1e-13;
-
-/// Brackets of roots along edges, one a lane: secants by the Illinois rule, halved where that is slow.
-struct Roots {
-    struct Lane {
-        double low, high, at_low, at_high;  ///< coordinates along the axis, and values there
-        double root, width;
-        bool done = true;
-        int slow = 0, side = 0;
-    };
-    std::array<Lane, kPointLanes> lane;
-
-    void begin(Lane& l, double low, double high, double at_low, double at_high, double step) {
-        l = {low, high, at_low, at_high, low, kRootWidth * step, false, 0, 0};
-        if (at_low == 0.0) l.root = low, l.done = true;
-        if (at_high == 0.0) l.root = high, l.done = true;
-    }
-    static double guess(const Lane& l) {
-        if (l.slow >= 3) return 0.5 * (l.low + l.high);
-        const double x = l.low - l.at_low * (l.high - l.low) / (l.at_high - l.at_low);
-        return std::min(std::max(x, l.low), l.high);
-    }
-    static void take(Lane& l, double x, double value, bool inside_low) {
-        const double before = l.root, width = l.high - l.low;
-        l.root = x;
-        const bool to_low = (value < 0.0) == inside_low;
-        if (to_low) {
-            l.low = x, l.at_low = value;
-            if (l.side == 1) l.at_high *= 0.5;
-        } else {
-            l.high = x, l.at_high = value;
-            if (l.side == -1) l.at_low *= 0.5;
-        }
-        l.side = to_low ? 1 : -1;
-        l.slow = l.high - l.low > 0.5 * width && l.slow < 3 ? l.slow + 1 : 0;
-        l.done = value == 0.0 || l.high - l.low <= l.width || std::abs(x - before) <= l.width;
-    }
-};
 
 }  // namespace
 
@@ -78,40 +41,41 @@ void BrickCrossings::findCrossings(const Lattice& lattice, const Brick& brick, c
     std::array<Edge, kPointLanes> edges;
     int waiting = 0;
     LanePoints points{};
-    Roots roots;
+    std::array<RootBracket, kPointLanes> roots;
     const auto solve = [&] {
         for (int lane = 0; lane < kPointLanes; ++lane) {
             const Edge& e = edges[std::min(lane, waiting - 1)];
             const glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
             for (int axis = 0; axis < 3; ++axis) points.axis[axis][lane] = p[axis];
             if (lane >= waiting) {
-                roots.lane[lane].done = true;
+                roots[lane].done = true;
                 continue;
             }
             glm::ivec3 end = e.corner;
             ++end[e.axis];
-            roots.begin(roots.lane[lane], p[e.axis], lattice.coordinate(e.axis, brick.unitsOf(end)[e.axis]),
-                        value(e.corner), value(end), lattice.step / (1 << brick.level));
+            roots[lane] = RootBracket::between(
+                p[e.axis], lattice.coordinate(e.axis, brick.unitsOf(end)[e.axis]), value(e.corner),
+                value(end), kRootWidth * lattice.step / (1 << brick.level));
         }
         double values[kPointLanes];
         for (int step = 0; step < kMostRootSteps; ++step) {
             bool all_done = true;
             for (int lane = 0; lane < waiting; ++lane) {
-                if (roots.lane[lane].done) continue;
+                if (roots[lane].done) continue;
                 all_done = false;
-                points.axis[edges[lane].axis][lane] = Roots::guess(roots.lane[lane]);
+                points.axis[edges[lane].axis][lane] = roots[lane].guess();
             }
             if (all_done) break;
             laneValues(brick.tape, points, values);
             for (int lane = 0; lane < waiting; ++lane)
-                if (!roots.lane[lane].done)
-                    Roots::take(roots.lane[lane], points.axis[edges[lane].axis][lane], values[lane],
-                                value(edges[lane].corner) < 0.0);
+                if (!roots[lane].done)
+                    roots[lane].take(points.axis[edges[lane].axis][lane], values[lane],
+                                     value(edges[lane].corner) < 0.0);
         }
         for (int lane = 0; lane < waiting; ++lane) {
             const Edge& e = edges[lane];
             glm::dvec3 p = lattice.corner(brick.unitsOf(e.corner));
-            p[e.axis] = roots.lane[lane].root;
+            p[e.axis] = roots[lane].root;
             addCrossing(tape, e.corner, e.axis, p, false);
         }
         waiting = 0;
@@ -144,8 +108,19 @@ void BrickCrossings::addCrossing(const TapeAt& tape, const glm::ivec3& corner, i
     glm::dvec3 normal(0.0);
     normal[axis] = value(corner) < 0.0 ? 1.0 : -1.0;
     if (length > 0.0 && std::isfinite(length)) normal = gradient / length;
+    add(corner, axis, {p, normal, made});
+}
+
+void BrickCrossings::set(std::span<const double> values) {
+    turned_.reset();
+    std::copy_n(values.begin(), kCorners, values_.begin());
+    crossings_.clear();
+    for (auto& axis : at_) axis.fill(-1);
+}
+
+void BrickCrossings::add(const glm::ivec3& corner, int axis, const Crossing& crossing) {
     at_[axis][indexOf(corner)] = static_cast<int>(crossings_.size());
-    crossings_.push_back({p, normal, made});
+    crossings_.push_back(crossing);
 }
 
 void BrickCrossings::turn(const glm::ivec3& c) {

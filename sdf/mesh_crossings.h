@@ -3,6 +3,7 @@
 
 #include <bitset>
 #include <glm/geometric.hpp>
+#include <span>
 #include <vector>
 
 #include "sdf/mesh_cell.h"
@@ -29,6 +30,9 @@ class BrickCrossings {
     }
     /// Its values alone.
     void readValues(const Lattice& lattice, const Brick& brick);
+    /// Values that somebody else knows, by indexOf(), without crossings; then those one by one.
+    void set(std::span<const double> values);
+    void add(const glm::ivec3& corner, int axis, const Crossing& crossing);
     /// From then on a corner counts as on the surface's other side; edges cross it in their middle there.
     void turn(const glm::ivec3& c);
     void findCrossings(const Lattice& lattice, const Brick& brick, const TapeAt& tape);

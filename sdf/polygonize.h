@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "sdf/brick_source.h"
 #include "sdf/mesh_lattice.h"
 #include "sdf/most_off.h"
 #include "sdf/surface_mesh.h"
@@ -36,6 +37,10 @@ struct MeshCounts {
 /// by their values alone, so that the mesh is closed and manifold. Throws SceneError where the surface
 /// reaches the lattice's end.
 SurfaceMesh marchingCubes(const MeshRequest& request, MeshCounts& counts);
+
+/// The same of what a source tells of a list's bricks; without materials and normals.
+SurfaceMesh marchBricks(const Lattice& lattice, const BrickList& bricks, const BrickSource& source,
+                        MeshCounts& counts);
 
 /// Dual contouring (Ju et al. 2002) with a vertex a loop, so that the mesh is manifold; sharp edges and
 /// corners are kept.

@@ -16,7 +16,8 @@ struct SurfaceMesh {
     // Below: one a triangle, or empty where they were not asked for.
     std::vector<std::uint32_t> material;  ///< of the shape whose value wins there; kNoMaterial: of none
     std::vector<std::array<glm::dvec3, 3>>
-        normal_world;  ///< unit, at its corners, from its own side of creases
+        normal_world;                              ///< unit, at its corners, from its own side of creases
+    std::vector<std::array<glm::dvec3, 3>> color;  ///< linear, at its corners; empty: the material's
 };
 
 }  // namespace edgewise::sdf

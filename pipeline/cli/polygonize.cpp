@@ -102,12 +102,15 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
     if (scene.field && !scene.field->analytic.empty())
         spdlog::warn("{}: {} analytic shapes beside the tree are not in the mesh", scene.source,
                      scene.field->analytic.size());
-    if (arguments.cap) {
+    options.between = throwIfInterrupted;
+    options.cap = arguments.cap;
+    if (arguments.cap && scene.field && !scene.field->tree.empty()) {
         scene = cappedAt(scene, *options.box);
         options.box.reset();  // of what is left, the cap is the bounds
     }
     std::optional<MeshDistance> distance;
     const Polygonized made = meshOf(scene, options, arguments.max_error, !arguments.no_check, distance);
+    for (const std::string& note : made.notes) spdlog::warn("{}: {}", scene.source, note);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
     const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
@@ -120,7 +123,8 @@ void addPolygonize(CLI::App& program, const std::string& command_line) {
     CLI::App* command = program.add_subcommand("polygonize", "a mesh of an SDF scene");
     auto arguments = std::make_shared<PolygonizeArguments>();
     arguments->command_line = command_line;
-    command->add_option("SCENE", arguments->scene, ".sdf.json file, or a name of `edgewise scenes`")
+    command
+        ->add_option("SCENE", arguments->scene, ".sdf.json or .map.glsl file, or a name of `edgewise scenes`")
         ->required();
     command->add_option("-o,--output", arguments->output, "positions in float32")
         ->type_name("MESH.glb")

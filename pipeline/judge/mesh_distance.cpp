@@ -2,10 +2,6 @@
 #include "pipeline/judge/mesh_quality.h"
 
 #ifdef EDGEWISE_HAS_ORACLE
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -13,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "pipeline/judge/nearest_triangle.h"
 #include "sdf/evaluate.h"
 #include "sdf/mesh_attributes.h"
 #include "sdf/mesh_crossings.h"
@@ -23,16 +20,7 @@ namespace edgewise {
 #ifdef EDGEWISE_HAS_ORACLE
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
 constexpr int kNewtonSteps = 20, kBisections = 60;
-/// Of a triangle: corners' weights. Edges' middles, the centre, and halfway from it to the corners.
-constexpr double kPlaces[][3] = {{0.5, 0.5, 0.0},          {0.0, 0.5, 0.5},          {0.5, 0.0, 0.5},
-                                 {1 / 3., 1 / 3., 1 / 3.}, {4 / 6., 1 / 6., 1 / 6.}, {1 / 6., 4 / 6., 1 / 6.},
-                                 {1 / 6., 1 / 6., 4 / 6.}};
 
 /// Each thread's own.
 using Found = tbb::enumerable_thread_specific<MeshDistance>;
@@ -48,10 +36,6 @@ MeshDistance joined(const Found& found) {
         all.surface_to_mesh = part.surface_to_mesh, all.worst_on_surface = part.worst_on_surface;
     }
     return all;
-}
-
-Kernel::Point_3 point(const glm::dvec3& p) {
-    return {p.x, p.y, p.z};
 }
 
 /// How far along gradients the surface is: an upper bound of the distance, once the value is 0 there.
@@ -77,10 +61,9 @@ void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const 
         const sdf::Triangle& t = mesh.triangles[n];
         const glm::dvec3 &a = mesh.position_world[t[0]], &b = mesh.position_world[t[1]],
                          &c = mesh.position_world[t[2]];
-        // Every place of a triangle is within a third of its longest side of one that is asked.
         const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
         result.mesh_spacing = std::max(result.mesh_spacing, longest / 3.0);
-        for (const auto& w : kPlaces) {
+        for (const auto& w : kTrianglePlaces) {
             const glm::dvec3 p = w[0] * a + w[1] * b + w[2] * c;
             const double distance = toSurface(tape, p);
             result.mesh_to_surface = std::max(result.mesh_to_surface, distance);
@@ -88,7 +71,7 @@ void meshToSurface(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const 
                 result.worst_part =
                     std::max(result.worst_part, distance / allowed->leastWithin(p, longest / 3.0));
         }
-        result.mesh_samples += std::size(kPlaces);
+        result.mesh_samples += std::size(kTrianglePlaces);
     });
 }
 
@@ -107,15 +90,9 @@ bool crossing(const sdf::TapeAt& tape, glm::dvec3 inside, glm::dvec3 outside, gl
 
 class SurfaceToMesh {
   public:
-    SurfaceToMesh(Triangles& triangles, const sdf::TapeAt& tape, const sdf::Lattice& lattice, int per_cell,
-                  const sdf::MostOff* allowed)
-        : tree_(triangles.begin(), triangles.end()),
-          tape_(tape),
-          lattice_(lattice),
-          per_cell_(per_cell),
-          allowed_(allowed) {
-        tree_.build();
-    }
+    SurfaceToMesh(const sdf::SurfaceMesh& mesh, const sdf::TapeAt& tape, const sdf::Lattice& lattice,
+                  int per_cell, const sdf::MostOff* allowed)
+        : nearest_(mesh), tape_(tape), lattice_(lattice), per_cell_(per_cell), allowed_(allowed) {}
 
     /// `seed`: of its lines.
     void brick(const sdf::Brick& brick, std::uint64_t seed, MeshDistance& result) const {
@@ -142,14 +119,14 @@ class SurfaceToMesh {
         glm::dvec3 place;
         if (!crossing(tape_, middle - along, middle + along, place)) return;
         ++result.surface_samples;
-        const double distance = std::sqrt(tree_.squared_distance(point(place)));
+        const double distance = nearest_.distance(place);
         if (allowed_) result.worst_part = std::max(result.worst_part, distance / allowed_->at(place));
         if (distance <= result.surface_to_mesh) return;
         result.surface_to_mesh = distance;
         result.worst_on_surface = place;
     }
 
-    Tree tree_;
+    const NearestTriangle nearest_;
     const sdf::TapeAt& tape_;
     const sdf::Lattice& lattice_;
     const int per_cell_;
@@ -166,11 +143,7 @@ std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::
     const sdf::TapeAt short_tape(tape, lattice, bound_holds);
     const sdf::BrickList bricks = sdf::findBricks(tape, lattice, bound_holds);
     meshToSurface(mesh, short_tape, allowed, found);
-    Triangles triangles;
-    for (const sdf::Triangle& t : mesh.triangles)
-        triangles.emplace_back(point(mesh.position_world[t[0]]), point(mesh.position_world[t[1]]),
-                               point(mesh.position_world[t[2]]));
-    SurfaceToMesh ask(triangles, short_tape, lattice, per_cell, allowed);
+    SurfaceToMesh ask(mesh, short_tape, lattice, per_cell, allowed);
     ask.slope(bound_holds ? tape.lipschitz : 1e6);
     tbb::parallel_for(std::size_t(0), bricks.bricks.size(),
                       [&](std::size_t b) { ask.brick(bricks.bricks[b], b, found.local()); });

@@ -7,6 +7,7 @@
 
 #include "sdf/mesh_lattice.h"
 #include "sdf/most_off.h"
+#include "sdf/point_field.h"
 #include "sdf/surface_mesh.h"
 
 namespace edgewise {
@@ -50,6 +51,12 @@ std::optional<std::size_t> selfIntersections(const sdf::SurfaceMesh& mesh);
 /// None without CGAL.
 std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::Tape& tape,
                                        const sdf::Lattice& lattice, bool bound_holds, int per_cell,
+                                       const sdf::MostOff* allowed = nullptr);
+
+/// The same of a field that is asked at many points at once: to what differences and its numbers' rounding
+/// tell of it.
+std::optional<MeshDistance> distanceOf(const sdf::SurfaceMesh& mesh, const sdf::PointField& field,
+                                       const sdf::Lattice& lattice, int per_cell,
                                        const sdf::MostOff* allowed = nullptr);
 
 /// As --stats and the command print it.

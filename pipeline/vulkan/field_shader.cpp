@@ -11,6 +11,7 @@
 #include "field_groups_text.h"
 #include "field_header_text.h"
 #include "field_lists_text.h"
+#include "field_points_text.h"
 #include "field_prune_main_text.h"
 #include "field_prune_text.h"
 #include "field_sdf_cone_step_text.h"
@@ -123,24 +124,34 @@ std::string batchesText(FieldShaders& made) {
            arrayText("ew_coarse_room", batches.size(), coarseRoom);
 }
 
-}  // namespace
-
-FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
-                              int height, bool prune, const sdf::ConeSettings* cones) {
+/// All that comes before a shader's own text, and the user's behind it.
+struct FieldTexts {
     FieldShaders made;
-    UserGlsl user;
+    std::string head, user;
+
+    std::vector<std::uint32_t> compile(const std::vector<std::string_view>& bodies) const {
+        std::string text = head;
+        for (const std::string_view body : bodies) text += body;
+        return compileWithUserGlsl(text + "#undef fieldAt\n" + user, made.file);
+    }
+};
+
+FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width, int height) {
+    FieldTexts texts;
+    FieldShaders& made = texts.made;
     if (scene.glsl) {
-        user = prepareUserGlsl(*scene.glsl, width, height);
+        UserGlsl user = prepareUserGlsl(*scene.glsl, width, height);
         made.user_loops = user.has_loops, made.user_albedo = user.has_albedo;
         made.lipschitz = scene.glsl->lipschitz;
+        texts.user = std::move(user.text);
     } else {
         const sdf::Tape tape = lower(scene.tree);
         made.field = sdf::glslText(tape);
         made.lipschitz = tape.lipschitz;
     }
     const bool batches = !made.field.batches.empty();
-    std::string head = "#version 460\n";
-    head += numbersText(settings, made);
+    std::string& head = texts.head;
+    head = "#version 460\n" + numbersText(settings, made);
     head += kField_header;
     if (batches) head += batchesText(made) + std::string(kField_lists);
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
@@ -160,20 +171,31 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
                              : "#define EW_ALBEDO(p, n) vec3(0.0)\n";
     head += kField_field;
     made.file = scene.glsl ? scene.glsl->file : scene.source;
-    const auto compile = [&](const std::vector<std::string_view>& bodies) {
-        std::string text = head;
-        for (const std::string_view body : bodies) text += body;
-        return compileWithUserGlsl(text + "#undef fieldAt\n" + user.text, made.file);
-    };
+    return texts;
+}
+
+}  // namespace
+
+FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
+                              int height, bool prune, const sdf::ConeSettings* cones) {
+    FieldTexts texts = textsOf(scene, settings, width, height);
+    FieldShaders& made = texts.made;
     const std::string trace_step = withOwnNames(kField_sdf_trace_step);
-    made.trace = compile({trace_step, kField_trace_state, kField_trace});
-    made.finish = compile({trace_step, kField_trace_state, kField_finish});
+    made.trace = texts.compile({trace_step, kField_trace_state, kField_trace});
+    made.finish = texts.compile({trace_step, kField_trace_state, kField_finish});
     if (cones)
         made.groups =
-            compile({conesText(settings, *cones), withOwnNames(kField_sdf_cone_step), kField_groups});
-    if (settings.prepass || prune) made.cones = compile({kField_cones});
-    if (batches && prune) made.prune = compile({kField_prune, made.field.prune_text, kField_prune_main});
-    return made;
+            texts.compile({conesText(settings, *cones), withOwnNames(kField_sdf_cone_step), kField_groups});
+    if (settings.prepass || prune) made.cones = texts.compile({kField_cones});
+    if (!made.field.batches.empty() && prune)
+        made.prune = texts.compile({kField_prune, made.field.prune_text, kField_prune_main});
+    return std::move(made);
+}
+
+FieldShaders makePointShaders(const sdf::FieldScene& scene, int width, int height) {
+    FieldTexts texts = textsOf(scene, {}, width, height);
+    texts.made.points = texts.compile({kField_points});
+    return std::move(texts.made);
 }
 
 }  // namespace edgewise::vulkan

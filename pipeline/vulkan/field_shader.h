@@ -20,8 +20,9 @@ inline constexpr std::uint32_t kFieldSegments = 32, kFieldCoarseSegments = 4;
 inline constexpr std::uint32_t kFieldListRows = 128, kFieldCoarseRows = 512;
 
 struct FieldShaders {
-    /// SPIR-V; prune: empty without batches; groups: without ConeSettings.
-    std::vector<std::uint32_t> trace, finish, cones, prune, groups;
+    /// SPIR-V; prune: empty without batches; groups: without ConeSettings; points: of makePointShaders()
+    /// alone.
+    std::vector<std::uint32_t> trace, finish, cones, prune, groups, points;
     sdf::GlslField field;  ///< empty text: a raw map
     std::string file;      ///< for messages
     bool user_loops = false, user_albedo = false;
@@ -36,6 +37,9 @@ struct FieldShaders {
 /// Throws InputError for GLSL that does not compile.
 FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
                               int height, bool prune, const sdf::ConeSettings* cones = nullptr);
+
+/// What asks for values at points, and for nothing else. Throws the same.
+FieldShaders makePointShaders(const sdf::FieldScene& scene, int width, int height);
 
 /// Groups that a ray has room for before it pauses.
 inline std::uint32_t groupsARound(const sdf::ConeSettings& cones) {
