@@ -10,7 +10,7 @@ namespace edgewise::figures {
 struct ConeTracingEffort {
     bool quick = false;
     std::vector<std::string> scenes;
-    glm::ivec2 size{320, 180};         ///< of what is judged
+    glm::ivec2 size{320, 180};        ///< of what is judged
     glm::ivec2 timed_size{640, 360};  ///< of what is timed for the aims; 0: nothing more is timed
     int runs = 3;
     double budget_seconds = 600.0;  ///< a method and scene

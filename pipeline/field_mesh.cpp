@@ -62,10 +62,9 @@ class FilmMesher {
         PolygonizeOptions options;
         options.mesher = parseMesher(choice_.mesher);
         options.resolution = kFirstResolution;
-        in_.progress.stage("polygonize", 0);
-        MeasuredMesh measured =
-            polygonizeWithin(allowed(), fmt::format("{} px", choice_.error_px), method_, restScene(), options,
-                             [this] { checkCancelled(in_.progress); });
+        options.progress = &in_.progress;
+        MeasuredMesh measured = polygonizeWithin(allowed(), fmt::format("{} px", choice_.error_px), method_,
+                                                 restScene(), options);
         made_.mesh = std::move(measured.made.mesh);
         MeshReport& report = made_.report;
         report.mesher = choice_.mesher;

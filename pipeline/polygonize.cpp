@@ -8,6 +8,7 @@
 
 #include "pipeline/cgal_mesher.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/stopwatch.h"
 #include "pipeline/polygonize_map.h"
 #include "sdf/field_scene.h"
 #include "sdf/scene_error.h"
@@ -50,6 +51,12 @@ double machineBytes() {
 }
 
 }  // namespace
+
+void enterStage(const PolygonizeOptions& options, std::string_view name) {
+    if (!options.progress) return;
+    options.progress->stage(name, 0);
+    checkCancelled(*options.progress);
+}
 
 WorldBox withMargin(const WorldBox& box) {
     const glm::dvec3 size = box.high - box.low;
@@ -121,6 +128,7 @@ Polygonized polygonizeTree(const Scene& scene, const PolygonizeOptions& options)
 
 Polygonized polygonize(const Scene& scene, const PolygonizeOptions& options) {
     const sdf::FieldScene& field = fieldOf(scene);
+    enterStage(options, fmt::format("polygonize, {} cells a side", options.resolution));
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = cpuSeconds();
     Polygonized result = field.tree.empty() ? polygonizeMap(scene, options) : polygonizeTree(scene, options);

@@ -1,13 +1,14 @@
 // Meshes of SDF scenes.
 #pragma once
 
-#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "pipeline/progress.h"
 #include "pipeline/scene.h"
 #include "sdf/point_field.h"
 #include "sdf/polygonize.h"
@@ -30,7 +31,7 @@ struct PolygonizeOptions {
     std::optional<sdf::MostOff>
         most_off;      ///< how far mesh and surface may be apart; dual contouring of a tree divides for it
     bool cap = false;  ///< of raw GLSL: what is within the box alone, as cappedAt() has of trees
-    std::function<void()> between = {};  ///< of raw GLSL: called again and again; may throw
+    Progress* progress = nullptr;  ///< told of stages; asked whether to stop, between batches of raw GLSL
 };
 
 struct Polygonized {
@@ -41,6 +42,9 @@ struct Polygonized {
     std::shared_ptr<const sdf::PointField> points;  ///< of raw GLSL: what was meshed
     std::vector<std::string> notes;                 ///< one sentence each
 };
+
+/// Tells of a stage without end in sight, if anybody asks; throws Interrupted where they want no more.
+void enterStage(const PolygonizeOptions& options, std::string_view name);
 
 /// The box and a little more around it.
 WorldBox withMargin(const WorldBox& box);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/error.h"
+#include "pipeline/methods/stopwatch.h"
 #ifdef EDGEWISE_HAS_VULKAN
 #include "pipeline/map_points.h"
 #endif
@@ -78,9 +79,11 @@ Polygonized polygonizeMap(const Scene& scene, const PolygonizeOptions& options) 
         result.lattice = sdf::latticeOf(box.low, box.high, options.resolution);
         requireMeshMemory(result.lattice);
         bool bound_holds = true;
-        result.mesh = sdf::meshOfPoints(
-            {*result.points, result.lattice, options.mesher == Mesher::kDual, options.between}, result.counts,
-            bound_holds);
+        result.mesh = sdf::meshOfPoints({*result.points, result.lattice, options.mesher == Mesher::kDual,
+                                         [&] {
+                                             if (options.progress) checkCancelled(*options.progress);
+                                         }},
+                                        result.counts, bound_holds);
         if (!bound_holds)
             result.notes.push_back(
                 "values change faster than its `lipschitz` says: no cell was left out, however far the "

@@ -48,12 +48,11 @@ std::optional<MeshDistance> measuredDistance(const Polygonized& made, const Scen
 }
 
 MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
-                              const std::string& asked, const Scene& scene, PolygonizeOptions options,
-                              const std::function<void()>& between) {
+                              const std::string& asked, const Scene& scene, PolygonizeOptions options) {
     options.most_off = most_off;
     for (int n = 1;; ++n) {
         Polygonized made = polygonize(scene, options);
-        if (between) between();
+        enterStage(options, fmt::format("measure {} triangles", made.mesh.triangles.size()));
         const std::optional<MeshDistance> distance = measuredDistance(made, scene, &most_off);
         if (!distance) throw FailureError(asked, "this build has no CGAL to measure it with");
         if (distance->worst_part <= 1.0) return {std::move(made), *distance};

@@ -1,7 +1,6 @@
 // Meshes whose measured distance from the surface is below a bound.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,10 +22,9 @@ struct MeasuredMesh {
 };
 
 /// Asks for less each time, with smaller cells at last, until what is measured is within what is allowed.
-/// `between`, called after each try, may throw. `amount`: most_off in words. Throws FailureError naming
+/// `amount`: most_off in words. Throws FailureError naming
 /// `asked` where that is not reached, and in a build that cannot measure it.
 MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
-                              const std::string& asked, const Scene& scene, PolygonizeOptions options,
-                              const std::function<void()>& between = {});
+                              const std::string& asked, const Scene& scene, PolygonizeOptions options);
 
 }  // namespace edgewise

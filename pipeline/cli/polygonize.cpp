@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "pipeline/judge/mesh_quality.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/polygonize_within.h"
+#include "pipeline/progress_bar.h"
 #include "pipeline/scene_catalog.h"
 #include "pipeline/write_mesh.h"
 #include "sdf/field_scene.h"
@@ -63,13 +65,12 @@ Polygonized meshOf(const Scene& scene, const PolygonizeOptions& options,
                    const std::optional<std::string>& amount, bool check,
                    std::optional<MeshDistance>& distance) {
     if (options.most_off) {
-        MeasuredMesh measured =
-            polygonizeWithin(*options.most_off, *amount, "--max-error", scene, options, throwIfInterrupted);
+        MeasuredMesh measured = polygonizeWithin(*options.most_off, *amount, "--max-error", scene, options);
         distance = measured.distance;
         return std::move(measured.made);
     }
     Polygonized made = polygonize(scene, options);
-    throwIfInterrupted();
+    if (check) enterStage(options, fmt::format("measure {} triangles", made.mesh.triangles.size()));
     if (check) distance = measuredDistance(made, scene);
     return made;
 }
@@ -102,7 +103,8 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
     if (scene.field && !scene.field->analytic.empty())
         spdlog::warn("{}: {} analytic shapes beside the tree are not in the mesh", scene.source,
                      scene.field->analytic.size());
-    options.between = throwIfInterrupted;
+    ProgressBar progress(!arguments.quiet && isatty(STDERR_FILENO), interruptFlag());
+    options.progress = &progress;
     options.cap = arguments.cap;
     if (arguments.cap && scene.field && !scene.field->tree.empty()) {
         scene = cappedAt(scene, *options.box);
@@ -110,9 +112,12 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
     }
     std::optional<MeshDistance> distance;
     const Polygonized made = meshOf(scene, options, arguments.max_error, !arguments.no_check, distance);
+    wipeProgressLine();
     for (const std::string& note : made.notes) spdlog::warn("{}: {}", scene.source, note);
     writeMesh(arguments.output, made.mesh, scene, arguments.command_line);
+    if (!arguments.no_check) enterStage(options, "look for self-intersections");
     const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
+    wipeProgressLine();
     if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
     if (!arguments.quiet) fmt::print("{}\n", record.dump(1));
 }
