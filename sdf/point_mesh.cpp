@@ -13,19 +13,31 @@ namespace {
 
 /// How far from a corner to the centre its normal is asked for.
 constexpr double kInward = 0.02;
+/// Differences within so many reaches of a crease may see both of its sides.
+constexpr double kClear = 2.0;
+/// Of a slope's reach: what normals are asked over, nearer to creases, for eight times the rounding: in float
+/// 2^-11, which light does not show.
+constexpr double kLooksReach = 0.125;
 /// Of the box's longest side: cubes are divided until they are as small, and while there are no more.
 constexpr double kFineEnough = 1.0 / 64.0;
 constexpr std::size_t kMostCubes = std::size_t(1) << 20;
 constexpr double kSlack = 1e-3;
 
-/// From a little inside the triangles, so that each side of a crease has its own.
+/// From a little inside the triangles, and so far that differences stay on one side of a crease; a triangle
+/// that is too small for that has its own normal.
 void findLooks(const PointField& field, double reach, SurfaceMesh& mesh) {
     mesh.material.assign(mesh.triangles.size(), 0);
     std::vector<glm::dvec3> places, normals;
+    std::vector<bool> small;
     for (const Triangle& t : mesh.triangles) {
         glm::dvec3 centre(0.0);
         for (const std::uint32_t v : t) centre += mesh.position_world[v] / 3.0;
-        for (const std::uint32_t v : t) places.push_back(mix(mesh.position_world[v], centre, kInward));
+        for (const std::uint32_t v : t) {
+            const glm::dvec3 way = centre - mesh.position_world[v];
+            const double part = std::max(kInward, kClear * reach / std::max(glm::length(way), 1e-300));
+            places.push_back(mesh.position_world[v] + std::min(part, 1.0) * way);
+            small.push_back(part > 1.0);
+        }
     }
     const std::vector<glm::dvec3> slopes = slopesAt(field, places, reach);
     for (const Triangle& t : mesh.triangles) {
@@ -35,7 +47,7 @@ void findLooks(const PointField& field, double reach, SurfaceMesh& mesh) {
         std::array<glm::dvec3, 3> own;
         for (glm::dvec3& normal : own) {
             normal = unitOr(slopes[normals.size()], flat);
-            if (!(glm::dot(normal, flat) > 0.0)) normal = flat;
+            if (small[normals.size()] || !(glm::dot(normal, flat) > 0.0)) normal = flat;
             normals.push_back(normal);
         }
         mesh.normal_world.push_back(own);
@@ -100,7 +112,7 @@ SurfaceMesh meshOfPoints(const PointMeshRequest& request, MeshCounts& counts, bo
     SurfaceMesh mesh = request.dual ? dualOfPoints(request.field, request.lattice, bricks, counts.cells)
                                     : marchBricks(request.lattice, bricks.list(), bricks, counts);
     if (request.between) request.between();
-    findLooks(request.field, slopeReach(request.field, request.lattice), mesh);
+    findLooks(request.field, kLooksReach * slopeReach(request.field, request.lattice), mesh);
     return mesh;
 }
 
