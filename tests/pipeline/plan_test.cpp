@@ -138,7 +138,7 @@ const std::vector<Firing>& firings() {
          [](Counts a, Counts b) { return a["cells_certified"] > 0 && b["cells_certified"] == 0; }},
         {"visibility", "closed-sphere", "cells are certified",
          [](Counts a, Counts b) { return a["cells_certified"] > 0 && b["cells_certified"] == 0; }},
-        {"piercing", "random-2k", "pairs need no depth line, others do",
+        {"piercing", "two-spheres", "pairs need no depth line, others do",
          [](Counts a, Counts b) { return a["depth_lines"] > 0 && b["depth_lines"] > a["depth_lines"]; }},
         {"piercing", "closed-sphere", "no pair needs a depth line",
          [](Counts a, Counts b) { return a["depth_lines"] == 0 && b["depth_lines"] > 0; }},
