@@ -84,7 +84,7 @@ class CommonPart {
     /// Of p - q over it: bit 0 where it may be positive, bit 1 where it may be negative.
     int signs(const LocalPlane& p, const LocalPlane& q) const {
         const double slopes = std::abs(p.a) + std::abs(q.a) + std::abs(p.b) + std::abs(q.b);
-        int signs = 0;
+        int signs = corners_.lost ? 3 : 0;
         for (const glm::dvec2& v : corners_) signs |= signsAt(v, p, q, slopes * placeError());
         return signs;
     }
@@ -98,7 +98,13 @@ class CommonPart {
     struct Corners {
         glm::dvec2 at[kMost];
         std::size_t count = 0;
-        void push(const glm::dvec2& p) { at[count++] = p; }
+        bool lost = false;  ///< there were more: roundings made the polygon cross a line more than twice
+        void push(const glm::dvec2& p) {
+            if (count < kMost)
+                at[count++] = p;
+            else
+                lost = true;
+        }
         const glm::dvec2* begin() const { return at; }
         const glm::dvec2* end() const { return at + count; }
     };
@@ -114,6 +120,7 @@ class CommonPart {
                        (std::abs(inward.x) + std::abs(inward.y)) * placeError();
         }
         Corners kept;
+        kept.lost = corners_.lost;
         for (std::size_t i = 0; i < corners_.count; ++i) {
             const std::size_t j = i + 1 == corners_.count ? 0 : i + 1;
             const bool in = distance[i] >= -error[i], in_next = distance[j] >= -error[j];

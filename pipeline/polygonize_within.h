@@ -22,8 +22,8 @@ struct MeasuredMesh {
 };
 
 /// Asks for less each time, with smaller cells at last, until what is measured is within what is allowed.
-/// `amount`: most_off in words. Throws FailureError naming
-/// `asked` where that is not reached, and in a build that cannot measure it.
+/// `amount`: most_off in words. Throws FailureError naming `asked` where that is not reached, and in a build
+/// that cannot measure it.
 MeasuredMesh polygonizeWithin(const sdf::MostOff& most_off, const std::string& amount,
                               const std::string& asked, const Scene& scene, PolygonizeOptions options);
 

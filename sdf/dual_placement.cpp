@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "sdf/held_in_cell.h"
 #include "sdf/mesh_feature.h"
 
 namespace edgewise::sdf {
@@ -26,15 +27,7 @@ bool DualPlacement::inOwnCell(const DualVertex& v, const glm::dvec3& p) const {
 
 glm::dvec3 DualPlacement::heldInCell(const DualVertex& v, const glm::dvec3& target) const {
     const glm::dvec3 low = lattice_.corner(v.cell.low), high = lattice_.corner(v.cell.low + v.cell.side);
-    const double rim = kInside * sideOf(v.cell);
-    const glm::dvec3 from = glm::clamp(v.middle_world, low + rim, high - rim), way = target - from;
-    double part = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (target[axis] > high[axis] - rim)
-            part = std::min(part, (high[axis] - rim - from[axis]) / way[axis]);
-        if (target[axis] < low[axis] + rim) part = std::min(part, (low[axis] + rim - from[axis]) / way[axis]);
-    }
-    return from + std::max(part, 0.0) * way;
+    return sdf::heldInCell(low, high, kInside * sideOf(v.cell), v.middle_world, target);
 }
 
 glm::dvec3 DualPlacement::heldOnSurface(const DualVertex& v) const {

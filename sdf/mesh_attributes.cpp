@@ -1,20 +1,15 @@
 #include "sdf/mesh_attributes.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "sdf/evaluate.h"
+#include "sdf/unit_or.h"
 
 namespace edgewise::sdf {
 namespace {
 
 /// How far from a corner to the centre its normal is asked for.
 constexpr double kInward = 0.02;
-
-glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& other) {
-    const double length = glm::length(v);
-    return length > 0.0 && std::isfinite(length) ? v / length : other;
-}
 
 glm::dvec3 centreOf(const SurfaceMesh& mesh, const Triangle& t) {
     return (mesh.position_world[t[0]] + mesh.position_world[t[1]] + mesh.position_world[t[2]]) / 3.0;

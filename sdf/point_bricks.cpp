@@ -7,6 +7,8 @@
 
 #include "sdf/edge_roots.h"
 #include "sdf/point_slopes.h"
+#include "sdf/scene_error.h"
+#include "sdf/unit_or.h"
 
 namespace edgewise::sdf {
 namespace {
@@ -15,6 +17,8 @@ constexpr std::size_t kBricksABatch = 512;
 constexpr int kSide = BrickCrossings::kSide, kCorners = BrickCrossings::kCorners;
 /// Of the bound, and of the largest coordinate's roundings: what values may change more than it says.
 constexpr double kSlack = 1e-3, kRoundings = 64.0;
+/// Bricks that are read without a bound: of a cube of 1024 cells a side.
+constexpr double kMostBlind = 0x1p21;
 /// Of an edge: where a root is looked for no more; and roundings of the largest coordinate.
 constexpr double kRootWidth = 1e-13;
 
@@ -46,16 +50,21 @@ class Bound {
     double slope_, noise_;
 };
 
-}  // namespace
-
+/// Throws SceneError where there are too many to look at.
 std::vector<glm::ivec3> everyBrick(const Lattice& lattice) {
     const glm::ivec3 count = lattice.bricks();
+    if (double(count.x) * count.y * count.z > kMostBlind)
+        throw SceneError("map",
+                         "values change faster than its `lipschitz` says, and in as many cells nobody "
+                         "can look for its surface without a bound: --resolution 1024 is the most");
     std::vector<glm::ivec3> all;
     for (int z = 0; z < count.z; ++z)
         for (int y = 0; y < count.y; ++y)
             for (int x = 0; x < count.x; ++x) all.push_back({x, y, z});
     return all;
 }
+
+}  // namespace
 
 NearBricks bricksNear(const PointField& field, const Lattice& lattice) {
     const Bound bound(field, lattice);
@@ -143,10 +152,7 @@ void PointBricks::keep(const glm::ivec3& place, std::span<const double> values) 
             for (int axis = 0; axis < 3; ++axis) list_.open |= at[axis] == 0 || at[axis] == last[axis];
     }
     if (!inside || !outside) return;
-    const glm::ivec3 count = lattice_.bricks();
-    list_.at[place.x +
-             static_cast<std::size_t>(count.x) * (place.y + static_cast<std::size_t>(count.y) * place.z)] =
-        static_cast<std::uint32_t>(list_.bricks.size());
+    list_.at[indexOf(place)] = static_cast<std::uint32_t>(list_.bricks.size());
     Brick brick;
     brick.first = place * kBrickCells * kUnits;
     list_.bricks.push_back(std::move(brick));
@@ -192,8 +198,13 @@ bool PointBricks::isWhole() const {
 std::uint32_t PointBricks::brickAt(const glm::ivec3& brick) const {
     const glm::ivec3 count = lattice_.bricks();
     if (brick.x >= count.x || brick.y >= count.y || brick.z >= count.z) return kNoBrick;
-    return list_.at[brick.x + static_cast<std::size_t>(count.x) *
-                                  (brick.y + static_cast<std::size_t>(count.y) * brick.z)];
+    return list_.at[indexOf(brick)];
+}
+
+std::size_t PointBricks::indexOf(const glm::ivec3& brick) const {
+    const glm::ivec3 count = lattice_.bricks();
+    return brick.x +
+           static_cast<std::size_t>(count.x) * (brick.y + static_cast<std::size_t>(count.y) * brick.z);
 }
 
 /// A brick has the edges from its own corners on, but for those at its upper faces.

@@ -17,8 +17,8 @@ struct NearBricks {
     bool open = false;  ///< a node that was left out is inside and reaches the lattice's end
     bool bound_holds = true;
 };
+/// Throws SceneError for more of them than can be looked at so.
 NearBricks bricksNear(const PointField& field, const Lattice& lattice);
-std::vector<glm::ivec3> everyBrick(const Lattice& lattice);
 
 /// Values at all corners of bricks whose signs differ, and crossings of their edges.
 class PointBricks : public BrickSource {
@@ -43,6 +43,7 @@ class PointBricks : public BrickSource {
     void checkSteps(std::span<const double> values);
     bool isWhole() const;
     void findCrossings();
+    std::size_t indexOf(const glm::ivec3& brick) const;
     std::uint32_t brickAt(const glm::ivec3& brick) const;
     glm::ivec3 placeOf(std::size_t brick) const { return list_.bricks[brick].first / (kBrickCells * kUnits); }
     void pause() const {

@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <unordered_map>
 
+#include "sdf/held_in_cell.h"
 #include "sdf/mesh_cell.h"
 #include "sdf/mesh_embedding.h"
 #include "sdf/point_slopes.h"
@@ -148,22 +149,22 @@ class PointDual {
             if (loop.rank == 1) loop.place = places[next++];
     }
 
-    /// In its cell, or in one beside it that has no vertex of its kind: a sharp edge that just looks in. What
-    /// is held back from there is put on the surface.
+    /// In their cells; those on sharp edges also in one beside it, where no other is in the same place. What
+    /// is held back is put on the surface.
     void placeVertices() {
         std::vector<std::size_t> beside;
         for (std::size_t i = 0; i < loops_.size(); ++i)
             (isIn(loops_[i]) ? settled_[keyOf(loops_[i].cell)] : beside).push_back(i);
         std::vector<std::size_t> held;
         for (const std::size_t i : beside) {
-            Loop& loop = loops_[i];
+            const Loop& loop = loops_[i];
             const glm::ivec3 at = cellOf(loop), off = glm::abs(at - loop.cell);
             std::vector<std::size_t>& others = settled_[keyOf(at)];
-            const bool free = loop.rank > 1 && std::max({off.x, off.y, off.z}) == 1 &&
-                              std::ranges::none_of(others, [&](std::size_t other) {
-                                  const Loop& o = loops_[other];
-                                  return glm::distance(o.place, loop.place) <= kApart * lattice_.step;
-                              });
+            const bool free =
+                loop.rank > 1 && std::max({off.x, off.y, off.z}) == 1 &&
+                std::ranges::none_of(others, [&](std::size_t other) {
+                    return glm::distance(loops_[other].place, loop.place) <= kApart * lattice_.step;
+                });
             (free ? others : held).push_back(i);
         }
         hold(held);
@@ -173,12 +174,12 @@ class PointDual {
     /// In their cells, on the surface.
     void hold(const std::vector<std::size_t>& loops) {
         std::vector<glm::dvec3> places;
-        for (const std::size_t i : loops) places.push_back(heldInCell(loops_[i]));
+        for (const std::size_t i : loops) places.push_back(placeInCell(loops_[i]));
         moveOnSurface(field_, reach_, kNewtonSteps, places);
         for (std::size_t k = 0; k < loops.size(); ++k) {
             Loop& loop = loops_[loops[k]];
             loop.place = places[k], loop.rank = 1;
-            loop.place = heldInCell(loop);
+            loop.place = placeInCell(loop);
         }
     }
     /// Vertices on sharp edges go back, those out of their cells first, where triangles meet. False: there
@@ -214,17 +215,9 @@ class PointDual {
         return c.x + count.x * (c.y + count.y * c.z);
     }
 
-    /// On the way from the loop's middle, the last place well within the cell.
-    glm::dvec3 heldInCell(const Loop& loop) const {
-        const glm::dvec3 low = lattice_.corner(kUnits * loop.cell) + kRim * lattice_.step,
-                         high = lattice_.corner(kUnits * (loop.cell + 1)) - kRim * lattice_.step;
-        const glm::dvec3 from = glm::clamp(loop.middle, low, high), way = loop.place - from;
-        double part = 1.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (loop.place[axis] > high[axis]) part = std::min(part, (high[axis] - from[axis]) / way[axis]);
-            if (loop.place[axis] < low[axis]) part = std::min(part, (low[axis] - from[axis]) / way[axis]);
-        }
-        return from + std::max(part, 0.0) * way;
+    glm::dvec3 placeInCell(const Loop& loop) const {
+        return heldInCell(lattice_.corner(kUnits * loop.cell), lattice_.corner(kUnits * (loop.cell + 1)),
+                          kRim * lattice_.step, loop.middle, loop.place);
     }
 
     /// Of a polygon the diagonal is taken whose middle is nearer to the surface.

@@ -7,6 +7,7 @@
 #include "sdf/point_dual.h"
 #include "sdf/point_slopes.h"
 #include "sdf/scene_error.h"
+#include "sdf/unit_or.h"
 
 namespace edgewise::sdf {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sdf/unit_or.h"
+
 namespace edgewise::sdf {
 namespace {
 
@@ -58,11 +60,6 @@ void makeTangent(const PointField& field, double reach, std::span<TangentPlane> 
     const std::vector<glm::dvec3> slopes = slopesAt(field, points, reach);
     for (std::size_t i = 0; i < planes.size(); ++i)
         planes[i] = {points[i] - stepOf(values[i], slopes[i]), unitOr(slopes[i], planes[i].normal)};
-}
-
-glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& other) {
-    const double length = glm::length(v);
-    return length > 0.0 && std::isfinite(length) ? v / length : other;
 }
 
 }  // namespace edgewise::sdf

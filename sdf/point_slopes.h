@@ -22,7 +22,4 @@ void moveOnSurface(const PointField& field, double reach, int steps, std::span<g
 /// is `planes`' own.
 void makeTangent(const PointField& field, double reach, std::span<TangentPlane> planes);
 
-/// Unit, or `other` where there is no direction.
-glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& other);
-
 }  // namespace edgewise::sdf

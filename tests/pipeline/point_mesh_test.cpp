@@ -210,6 +210,8 @@ TEST(PointMesh, ABoundThatLiesLeavesNothingOut) {
                lied = meshOf(TestField(steep, false, 1.0), true, 40);
     EXPECT_TRUE(told.bound_holds);
     EXPECT_FALSE(lied.bound_holds);
+    // There is an end to that.
+    EXPECT_THROW(meshOf(TestField(steep, false, 1.0), true, 2048), sdf::SceneError);
     expectClosed(lied, 2);
     EXPECT_EQ(told.mesh.triangles.size(), lied.mesh.triangles.size());
     // In another order.
