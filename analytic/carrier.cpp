@@ -156,6 +156,11 @@ bool crossing(const Carrier& p, const Carrier& q, FinePoint& point) {
     return p.ref < q.ref ? crossDepths(p, q, point) : crossDepths(q, p, point);
 }
 
+int sideOf(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+    const Int128 cross = crossExact(b - a, p - a);
+    return cross > 0 ? 1 : cross < 0 ? -1 : 0;
+}
+
 std::uint64_t lineKey(const Carrier& line) {
     if (!line.isEdge()) return mix(mix(1, line.ref.i), line.ref.j);
     std::uint64_t h = mix(2, std::bit_cast<std::uint64_t>(line.a.y + 0.0));

@@ -49,6 +49,10 @@ FinePoint pointAtX(const Carrier& line, FineCoordinate x);
 /// cross.
 bool crossing(const Carrier& p, const Carrier& q, FinePoint& point);
 
+/// The exact sign of cross(b - a, p - a) of points on the grid: 1 where p is inside of a triangle's edge a ->
+/// b.
+int sideOf(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p);
+
 /// Whether two edges run between the same points.
 inline bool sameEdge(const Carrier& p, const Carrier& q) {
     return p.a == q.a && p.b == q.b;

@@ -58,6 +58,8 @@ struct VisibilityOptions {
     bool events = true;  ///< sweep by events where doubles are sure of every order, else slab by slab
     bool every_depth_line =
         false;  ///< of all pairs that meet in the cell, not only those that change order in it
+    bool by_edges =
+        false;  ///< EdgeVisibility in the place of sweeps: triangles are opaque, none pierces another
 };
 
 /// Everything visibility emits, appended cell by cell.

@@ -125,6 +125,8 @@ void CellVisibility::visit(const ScreenScene& scene, const Cell& cell, glm::dvec
             const std::size_t i = quarter & 1, j = quarter >> 1;
             visit(scene, {{xs[i], ys[j]}, {xs[i + 1], ys[j + 1]}}, origin, own, own + count, options, out);
         }
+    } else if (options.by_edges) {
+        by_edges_.run(scene, cell, origin, list(), out);
     } else {
         sweep_.run(scene, cell, origin, list(), options, out);
     }

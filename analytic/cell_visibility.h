@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analytic/cell.h"
+#include "analytic/edge_visibility.h"
 #include "analytic/sheet_certificate.h"
 #include "analytic/sheet_occlusion.h"
 #include "analytic/slab_sweep.h"
@@ -39,6 +40,7 @@ class CellVisibility {
     SheetOcclusion sheet_occlusion_;
     SheetCertificate certificate_;
     SlabSweep sweep_;
+    EdgeVisibility by_edges_;
 };
 
 /// Whether the triangle may meet the cell (never false for one that does), and whether it surely covers it.

@@ -3,26 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analytic/common_part.h"
+
 namespace edgewise {
 namespace {
-
-/// A sign of p - q at a place, from the origin: bit 0 where it may be positive, bit 1 where it may be
-/// negative. `place_error`: what the place's own is worth in depth.
-int signsAt(const glm::dvec2& v, const LocalPlane& p, const LocalPlane& q, double place_error = 0.0) {
-    const double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
-    // Roundings beyond the leaf's own bound: the place may lie far outside the cell.
-    const double far =
-        (std::abs(p.a) + std::abs(q.a)) * std::abs(v.x) + (std::abs(p.b) + std::abs(q.b)) * std::abs(v.y);
-    const double error = p.error + q.error + 8.0 * 0x1p-53 * far + place_error;
-    return (d > -error ? 1 : 0) | (d < error ? 2 : 0);
-}
-
-/// The same over the vertices of t.
-int signsAtVertices(const ScreenTriangle& t, const LocalPlane& p, const LocalPlane& q, glm::dvec2 origin) {
-    int signs = 0;
-    for (const glm::dvec2& p_px : t.p_px) signs |= signsAt(p_px - origin, p, q);
-    return signs;
-}
 
 /// Whether p - q has one certain sign over the whole cell.
 bool ordered(const LocalPlane& p, const LocalPlane& q, glm::dvec2 lo, glm::dvec2 hi) {
@@ -59,86 +43,6 @@ bool separates(const ScreenTriangle& s, const ScreenTriangle& t) {
     }
     return false;
 }
-
-/// A convex polygon that holds the part of the cell where two triangles lie over each other, from the origin.
-/// Places are cut from edges a little too far out, never too far in: by as much of the edge as roundings of
-/// distances may be.
-class CommonPart {
-  public:
-    CommonPart(const ScreenTriangle& s, const ScreenTriangle& t, glm::dvec2 origin, glm::dvec2 lo,
-               glm::dvec2 hi) {
-        for (const glm::dvec2& p_px : s.p_px) {
-            corners_.push(p_px - origin);
-            const glm::dvec2 v = corners_.at[corners_.count - 1];
-            reach_ = std::max({reach_, std::abs(v.x), std::abs(v.y)});
-        }
-        clip({1.0, 0.0}, -lo.x), clip({-1.0, 0.0}, hi.x);
-        clip({0.0, 1.0}, -lo.y), clip({0.0, -1.0}, hi.y);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 a = t.p_px[k] - origin, e = (t.p_px[(k + 1) % 3] - origin) - a;
-            const glm::dvec2 inward(-e.y, e.x);
-            clip(inward, -(inward.x * a.x + inward.y * a.y));
-        }
-    }
-
-    /// Of p - q over it: bit 0 where it may be positive, bit 1 where it may be negative.
-    int signs(const LocalPlane& p, const LocalPlane& q) const {
-        const double slopes = std::abs(p.a) + std::abs(q.a) + std::abs(p.b) + std::abs(q.b);
-        int signs = corners_.lost ? 3 : 0;
-        for (const glm::dvec2& v : corners_) signs |= signsAt(v, p, q, slopes * placeError());
-        return signs;
-    }
-
-  private:
-    /// Seven cuts in a row, each two roundings of the whole edge.
-    double placeError() const { return 16.0 * 0x1p-53 * reach_; }
-
-    /// Of three edges, cut by seven lines.
-    static constexpr std::size_t kMost = 10;
-    struct Corners {
-        glm::dvec2 at[kMost];
-        std::size_t count = 0;
-        bool lost = false;  ///< there were more: roundings made the polygon cross a line more than twice
-        void push(const glm::dvec2& p) {
-            if (count < kMost)
-                at[count++] = p;
-            else
-                lost = true;
-        }
-        const glm::dvec2* begin() const { return at; }
-        const glm::dvec2* end() const { return at + count; }
-    };
-
-    /// Keeps where dot(inward, p) + offset may be at least 0.
-    void clip(const glm::dvec2& inward, double offset) {
-        double distance[kMost], error[kMost];
-        for (std::size_t i = 0; i < corners_.count; ++i) {
-            const glm::dvec2& p = corners_.at[i];
-            const double x = inward.x * p.x, y = inward.y * p.y;
-            distance[i] = (x + y) + offset;
-            error[i] = 16.0 * 0x1p-53 * (std::abs(x) + std::abs(y) + std::abs(offset)) +
-                       (std::abs(inward.x) + std::abs(inward.y)) * placeError();
-        }
-        Corners kept;
-        kept.lost = corners_.lost;
-        for (std::size_t i = 0; i < corners_.count; ++i) {
-            const std::size_t j = i + 1 == corners_.count ? 0 : i + 1;
-            const bool in = distance[i] >= -error[i], in_next = distance[j] >= -error[j];
-            if (in) kept.push(corners_.at[i]);
-            if (in != in_next) kept.push(cut(in ? i : j, in ? j : i, distance, error));
-        }
-        corners_ = kept;
-    }
-    glm::dvec2 cut(std::size_t in, std::size_t out, const double* distance, const double* error) const {
-        const double slack = error[in] + error[out], fall = distance[in] - distance[out];
-        const double part = fall > 4.0 * slack ? (std::max(distance[in], 0.0) + slack) / (fall - slack) : 1.0;
-        const glm::dvec2 &a = corners_.at[in], &b = corners_.at[out];
-        return part < 1.0 ? a + part * (b - a) : b;
-    }
-
-    Corners corners_;
-    double reach_ = 0.0;  ///< no coordinate is larger
-};
 
 /// Edges that meet in a vertex cross nowhere else.
 bool meetInVertex(const Carrier& p, const Carrier& q) {
@@ -223,9 +127,9 @@ void LeafLines::addDepthLines(const ScreenScene& scene, std::span<const std::uin
                 continue;
             }
             if (ordered(p, q, lo, hi) || !boxesOverlap(s, t) || separates(s, t) || separates(t, s)) continue;
-            if (signsAtVertices(s, p, q, frame.origin) != 3) continue;
-            if (signsAtVertices(t, p, q, frame.origin) != 3) continue;
-            if (CommonPart(s, t, frame.origin, lo, hi).signs(p, q) != 3) continue;
+            if (f64::signsAtVertices(s, p, q, frame.origin) != 3) continue;
+            if (f64::signsAtVertices(t, p, q, frame.origin) != 3) continue;
+            if (f64::signsOver(f64::commonPart(s, t, frame.origin, lo, hi), p, q) != 3) continue;
             addDepthLine(scene, LineRef::depth(p.plane, q.plane));
         }
     }

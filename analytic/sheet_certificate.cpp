@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace edgewise {
 namespace {
@@ -47,51 +46,7 @@ void SheetCertificate::emitEdge(const ScreenScene& scene, const CellFrame& frame
     if (!clipEdge(frame, line) || !line.runsInside()) return;
     if (left != right)
         out.segments.push_back({lineKey(carrier), carrier.ref, left, right, line.enter, line.exit});
-    const FineCoordinate first = yOf(line.enter), last = yOf(line.exit);
-    for (int row = static_cast<int>(std::floor(first.grid - 0.5)); row + 0.5 <= last.grid; ++row) {
-        const FineCoordinate y{row + 0.5, 0.0};
-        const OrderKey key = orderKey(y, frame.origin.y);
-        if (key < line.in0 || key >= line.in1) continue;
-        crossings_.push_back({row, frame.origin.x + line.xAt(frame, y), line.slope, left, right});
-    }
-}
-
-/// Sorts the crossings. False where rounding exchanged the ends of a thin triangle on a row: its labels do
-/// not chain.
-bool SheetCertificate::sortRows() {
-    std::sort(crossings_.begin(), crossings_.end(), [](const RowCrossing& a, const RowCrossing& b) {
-        return std::tie(a.row, a.x, a.slope) < std::tie(b.row, b.x, b.slope);
-    });
-    for (std::size_t k = 0; k + 1 < crossings_.size(); ++k) {
-        const RowCrossing &a = crossings_[k], &b = crossings_[k + 1];
-        if (a.row == b.row && a.after != b.before) return false;
-    }
-    return true;
-}
-
-/// A row starts with the left owner of its first crossing; without one, a single triangle holds all of it.
-void SheetCertificate::emitRows(const ScreenScene& scene, const CellFrame& frame,
-                                std::span<const std::uint32_t> triangles, CellOutput& out) {
-    const double start = frame.cell.min.x + kBorderRestPx,
-                 middle = 0.5 * (frame.cell.min.x + frame.cell.max.x);
-    auto next = crossings_.begin();
-    for (int row = static_cast<int>(std::floor(frame.cell.min.y - 0.5)); row + 0.5 <= frame.cell.max.y;
-         ++row) {
-        if (!(row + 0.5 > frame.cell.min.y)) continue;
-        if (next != crossings_.end() && next->row == row) {
-            out.rows.push_back({row, next->before, start});
-            for (; next != crossings_.end() && next->row == row; ++next)
-                out.rows.push_back({row, next->after, next->x});
-            continue;
-        }
-        const auto inner = [&](std::uint32_t i) {
-            return innerDistance(scene.triangles[i], {middle, row + 0.5});
-        };
-        const auto holder =
-            std::max_element(triangles.begin(), triangles.end(),
-                             [&](std::uint32_t a, std::uint32_t b) { return inner(a) < inner(b); });
-        out.rows.push_back({row, scene.triangles[*holder].owner, start});
-    }
+    crossings_.add(frame, line, line.enter, line.exit, left, right);
 }
 
 bool SheetCertificate::run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
@@ -105,11 +60,16 @@ bool SheetCertificate::run(const ScreenScene& scene, const Cell& cell, glm::dvec
     crossings_.clear();
     const std::size_t emitted = out.segments.size();
     for (const SharedEdge& edge : shared.edges()) emitEdge(scene, frame, triangles, edge, out);
-    if (!sortRows()) {
+    if (!crossings_.sort()) {
         out.segments.resize(emitted);
         return false;
     }
-    emitRows(scene, frame, triangles, out);
+    // A row without crossings is within one triangle.
+    const auto holder = [&](glm::dvec2 p) {
+        const auto inner = [&](std::uint32_t i) { return innerDistance(scene.triangles[i], p); };
+        return scene.triangles[*std::ranges::max_element(triangles, {}, inner)].owner;
+    };
+    crossings_.emit(frame.cell, holder, out.rows);
     ++out.counts.certified;
     return true;
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "analytic/cell_clip.h"
+#include "analytic/row_crossings.h"
 #include "analytic/shared_edges.h"
 
 namespace edgewise {
@@ -22,18 +22,8 @@ class SheetCertificate {
   private:
     void emitEdge(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
                   const SharedEdge& edge, CellOutput& out);
-    bool sortRows();
-    void emitRows(const ScreenScene& scene, const CellFrame& frame, std::span<const std::uint32_t> triangles,
-                  CellOutput& out);
 
-    /// A row meets a non-horizontal edge at x; right of it lies `after`. Edges that leave one point on the
-    /// row are in the order in which the scanline just below meets them: by slope.
-    struct RowCrossing {
-        int row;
-        double x, slope;
-        Owner before, after;
-    };
-    std::vector<RowCrossing> crossings_;
+    RowCrossings crossings_;
 };
 
 }  // namespace edgewise

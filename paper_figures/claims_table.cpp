@@ -4,6 +4,7 @@
 
 #include "paper_figures/page_parts.h"
 #include "pipeline/compare/comparison_tables.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::figures {
@@ -36,7 +37,7 @@ std::string claimsHtml(const std::vector<ClaimsOf>& all) {
     for (const ClaimsOf& of : all)
         for (const FigureClaim& claim : of.claims) rows += rowOf(of, claim);
     if (rows.empty()) return "";
-    return table(
+    return cardTable(
         "<th>figure</th><th>place</th><th style='text-align:left'>claim</th><th "
         "style='text-align:left'>paper says</th><th style='text-align:left'>we measure</th><th "
         "style='text-align:left'>why they differ</th>",

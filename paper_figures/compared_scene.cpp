@@ -9,8 +9,8 @@
 #include "pipeline/compare/mesh_reference.h"
 #include "pipeline/error.h"
 #include "pipeline/load_scene.h"
-#include "pipeline/mesh_store.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 #include "pipeline/version.h"
 
 namespace edgewise::figures {
@@ -27,14 +27,14 @@ struct Truth {
 };
 
 /// Meshes are made once for all workers.
-std::vector<std::string> argumentsWith(const MeshFolder& meshes, const ComparedPicture& picture,
+std::vector<std::string> argumentsWith(const ScopedPath& meshes, const ComparedPicture& picture,
                                        const std::string& method) {
     std::vector<std::string> arguments = workerArguments(picture, method);
     arguments.push_back("--meshes=" + meshes.path().string());
     return arguments;
 }
 
-Truth truthOf(const ComparedPicture& picture, const std::string& reference, const MeshFolder& meshes_at,
+Truth truthOf(const ComparedPicture& picture, const std::string& reference, const ScopedPath& meshes_at,
               const std::filesystem::path& scratch, Progress& progress,
               const compare::ReferenceWishes& wishes) {
     Truth truth;
@@ -90,7 +90,7 @@ struct Contest {
 
     /// `meshes`, if any: made once for all workers.
     Contest(const ComparedPicture& picture, const std::vector<std::string>& methods,
-            const MeshFolder* meshes = nullptr) {
+            const ScopedPath* meshes = nullptr) {
         findScene(picture.scene);
         const Prefilter filter = makePrefilter(picture.filter, picture.radius, {});
         for (const std::string& method : methods) {
@@ -107,7 +107,7 @@ compare::Comparison compareOn(const ComparedPicture& picture, const std::string&
                               const std::vector<std::string>& methods,
                               const compare::ScheduleOptions& schedule, Progress& progress,
                               const compare::ReferenceWishes& wishes) {
-    const MeshFolder meshes_at(schedule.scratch / ".meshes");
+    const ScopedPath meshes_at = emptyFolder(schedule.scratch / ".meshes");
     Contest contest(picture, methods, &meshes_at);
     const Truth truth = truthOf(picture, reference, meshes_at, schedule.scratch, progress, wishes);
     compare::runByTurns(

@@ -7,6 +7,7 @@
 #include "paper_figures/edge_parts_plot.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::figures {
@@ -52,14 +53,11 @@ struct Found {
     std::map<std::string, double> seconds;
 };
 
-std::string cell(const Psnr& psnr) {
-    return psnr ? number(*psnr, "{:.2f}") : "<td data-value=''></td>";
-}
 std::string gainCell(const Psnr& better, const Psnr& worse) {
-    if (!better || !worse) return "<td data-value=''></td>";
+    if (!better || !worse) return emptyCell();
     const double gain = *better - *worse;
-    return gain < 0.0 ? fmt::format("<td data-value='{0}'><span class='bad'>{0:+.2f}</span></td>", gain)
-                      : number(gain, "{:+.2f}");
+    return gain < 0.0 ? sortedCell(gain, fmt::format("<span class='bad'>{:+.2f}</span>", gain))
+                      : numberCell(gain, "{:+.2f}");
 }
 
 std::string kindsTable(const std::vector<Found>& all) {
@@ -73,14 +71,14 @@ std::string kindsTable(const std::vector<Found>& all) {
             if (pixels == 0) continue;
             rows += fmt::format("<tr><td>{}</td><td>{}</td>", found.scene,
                                 kind == EdgeKind::kNone ? "all edges" : judge::nameOf(kind)) +
-                    number(static_cast<double>(pixels), "{:.0f}");
-            for (const std::string& method : kMethods) rows += cell(psnr(method));
+                    numberCell(static_cast<double>(pixels), "{:.0f}");
+            for (const std::string& method : kMethods) rows += numberCell(psnr(method), "{:.2f}");
             rows +=
                 gainCell(psnr("ctss-x"), psnr("ctss")) + gainCell(psnr("ctss-x"), psnr("ssaa:2")) + "</tr>\n";
         }
     std::string heads = "<th>scene</th><th>edges</th><th>pixels</th>";
     for (const std::string& method : kMethods) heads += fmt::format("<th>{}, dB</th>", escapedHtml(method));
-    return table(heads + "<th>ctss-x over ctss</th><th>ctss-x over ssaa:2</th>", rows);
+    return cardTable(heads + "<th>ctss-x over ctss</th><th>ctss-x over ssaa:2</th>", rows);
 }
 
 std::string kindsCsv(const std::vector<Found>& all) {

@@ -8,6 +8,7 @@
 #include "paper_figures/edge_parts_plot.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
+#include "pipeline/html_table.h"
 
 namespace edgewise::figures {
 namespace {
@@ -138,13 +139,14 @@ std::string kindsTable(const MethodViews& views) {
     std::string rows;
     for (const EdgeKind kind : kEdgeKinds) {
         rows += fmt::format("<tr><td>{}</td>", judge::nameOf(kind)) +
-                number(static_cast<double>(views.pixelsOf(kind)), "{:.0f}");
-        for (const std::string& method : kLimitMethods) rows += number(rmseOf(views, method, kind), "{:.4f}");
+                numberCell(static_cast<double>(views.pixelsOf(kind)), "{:.0f}");
+        for (const std::string& method : kLimitMethods)
+            rows += numberCell(rmseOf(views, method, kind), "{:.4f}");
         rows += "</tr>\n";
     }
     std::string heads = "<th>edges</th><th>pixels</th>";
     for (const std::string& method : kLimitMethods) heads += "<th>RMSE of " + method + "</th>";
-    return table(heads, rows);
+    return cardTable(heads, rows);
 }
 
 std::string kindsCsv(const MethodViews& views) {

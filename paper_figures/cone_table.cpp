@@ -9,6 +9,7 @@
 #include "paper_figures/page_parts.h"
 #include "paper_figures/value_grid.h"
 #include "pipeline/compare/comparison.h"
+#include "pipeline/html_table.h"
 #include "pipeline/methods/stopwatch.h"
 
 namespace edgewise::figures {
@@ -60,15 +61,15 @@ std::string rowsTable(const std::vector<ConeTableRow>& rows) {
     for (const ConeTableRow& row : rows) {
         body += fmt::format("<tr><td>{}</td><td>{}x{}</td>", row.scene, row.width, row.height);
         for (std::size_t m = 0; m < kTableMethods.size(); ++m)
-            body += number(1e3 * row.seconds[m], "{:.1f}") + number(row.ratio(m), "{:.2f}") +
-                    number(row.paper[m], "{:.2f}");
+            body += numberCell(1e3 * row.seconds[m], "{:.1f}") + numberCell(row.ratio(m), "{:.2f}") +
+                    numberCell(row.paper[m], "{:.2f}");
         body += "</tr>\n";
     }
     body += "<tr><td><b>mean</b></td><td></td>";
     for (std::size_t m = 0; m < kTableMethods.size(); ++m)
-        body += "<td data-value=''></td>" + number(meanRatio(rows, m), "{:.2f}") +
-                number(meanPaper(rows, m), "{:.2f}");
-    return table(heads, body + "</tr>\n");
+        body +=
+            emptyCell() + numberCell(meanRatio(rows, m), "{:.2f}") + numberCell(meanPaper(rows, m), "{:.2f}");
+    return cardTable(heads, body + "</tr>\n");
 }
 
 void addClaims(const std::vector<ConeTableRow>& rows, std::vector<FigureClaim>& claims) {

@@ -7,10 +7,10 @@
 #include "paper_figures/compared_scene.h"
 #include "paper_figures/cone_table.h"
 #include "paper_figures/cone_tracing_pictures.h"
-#include "paper_figures/temporary_folder.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/stopwatch.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -90,7 +90,7 @@ class Measurement {
 
     const ConeTracingEffort& effort_;
     Progress& progress_;
-    const TemporaryFolder scratch_;
+    const ScopedPath scratch_ = temporaryFolder();
     compare::ScheduleOptions schedule_;
     ConeTracing found_;
 };

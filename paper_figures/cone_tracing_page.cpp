@@ -8,18 +8,15 @@
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/kinds_tables.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::figures {
 namespace {
 
 std::string percent(double share) {
-    return number(100.0 * share, "{:.2f}");
+    return numberCell(100.0 * share, "{:.2f}");
 }
-std::string cell(const std::optional<double>& value, const char* format) {
-    return value ? number(*value, format) : "<td data-value=''></td>";
-}
-
 std::string verdict(const ConeClaim& claim) {
     if (!claim.met()) return "";
     const std::string by = fmt::format("{} by {:.2f}{}{}", *claim.met() ? "met" : "missed",
@@ -37,7 +34,7 @@ std::string claimsTable(const ConeTracing& found) {
             rows += fmt::format(fmt::runtime(kWords), words);
         rows += "</tr>\n";
     }
-    return table("<th>claim</th><th>here</th><th>aim met</th><th>aim</th><th>paper</th>", rows);
+    return cardTable("<th>claim</th><th>here</th><th>aim met</th><th>aim</th><th>paper</th>", rows);
 }
 
 std::string timesTable(const ConeTracing& found) {
@@ -47,11 +44,11 @@ std::string timesTable(const ConeTracing& found) {
             const std::optional<double> seconds = scene.secondsOf(row.method);
             rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(scene.name()),
                                 escapedHtml(row.method), escapedHtml(row.device)) +
-                    cell(seconds ? std::optional(1e3 * *seconds) : std::nullopt, "{:.0f}") +
-                    cell(scene.ratioOf(row.method), "{:.2f}") +
-                    cell(publishedRatio(scene.name(), row.method), "{:.2f}") + "</tr>\n";
+                    numberCell(seconds ? std::optional(1e3 * *seconds) : std::nullopt, "{:.0f}") +
+                    numberCell(scene.ratioOf(row.method), "{:.2f}") +
+                    numberCell(publishedRatio(scene.name(), row.method), "{:.2f}") + "</tr>\n";
         }
-    return table(
+    return cardTable(
         "<th>scene</th><th>method</th><th>device</th><th>ms</th><th>times none</th><th>paper: times "
         "none</th>",
         rows);
@@ -72,10 +69,10 @@ std::string countsTable(const ConeTracing& found) {
     }
     std::string heads = "<th>% of all pixels</th>";
     for (const EdgeKind kind : kEdgeKinds) heads += fmt::format("<th>{}</th>", judge::nameOf(kind));
-    return table(heads +
-                     "<th>ctss-x: doubtful</th><th>complex</th><th>of these by count</th><th>lights' "
-                     "borders</th>",
-                 rows);
+    return cardTable(heads +
+                         "<th>ctss-x: doubtful</th><th>complex</th><th>of these by count</th><th>lights' "
+                         "borders</th>",
+                     rows);
 }
 
 /// The plots of a scene begin with its name.
@@ -105,8 +102,8 @@ std::string rowsTable(const ConeTracing& found) {
         for (const compare::Row& row : scene.judged.rows)
             rows +=
                 fmt::format("<tr><td>{}</td>{}</tr>\n", escapedHtml(scene.name()), compare::reportCells(row));
-    return "<details><summary>All rows</summary>\n" + table("<th>scene</th>" + compare::reportHeads(), rows) +
-           "</details>\n";
+    return "<details><summary>All rows</summary>\n" +
+           cardTable("<th>scene</th>" + compare::reportHeads(), rows) + "</details>\n";
 }
 
 std::string notesHtml(const ConeTracing& found) {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "paper_figures/compared_scene.h"
-#include "paper_figures/temporary_folder.h"
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -95,7 +95,7 @@ void measureScene(const std::string& name, const Effort& effort, const std::file
 }
 
 ErrorTime measure(const Effort& effort, Progress& progress) {
-    const TemporaryFolder scratch;
+    const ScopedPath scratch = temporaryFolder();
     Stopwatch watch;
     ErrorTime found;
     found.runs = effort.runs, found.budget_seconds = effort.budget_seconds;

@@ -10,6 +10,7 @@
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/pareto_plot.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/plot_colors.h"
 
@@ -66,12 +67,12 @@ std::string meansTable(const ErrorTime& found) {
     for (const SceneKind kind : {SceneKind::kTriangles, SceneKind::kField})
         for (const MethodMean& mean : methodMeans(found, kind))
             rows += fmt::format(
-                "<tr><td>{}</td><td>{}</td>{}{}{}<td data-value='{}'>{} of {}</td></tr>\n",
-                escapedHtml(mean.method), wordsOf(kind), number(mean.scenes, "{:.0f}"),
-                number(mean.time_ratio, "{:.2f}"),
-                mean.error_ratio ? number(*mean.error_ratio, "{:.3f}") : "<td data-value='0'>0</td>",
-                mean.fronts, mean.fronts, mean.scenes);
-    return table(
+                "<tr><td>{}</td><td>{}</td>{}{}{}{}</tr>\n", escapedHtml(mean.method), wordsOf(kind),
+                numberCell(mean.scenes, "{:.0f}"), numberCell(mean.time_ratio, "{:.2f}"),
+                mean.error_ratio ? numberCell(*mean.error_ratio, "{:.3f}") : sortedCell(0.0, "0"),
+                sortedCell(static_cast<double>(mean.fronts),
+                           fmt::format("{} of {}", mean.fronts, mean.scenes)));
+    return cardTable(
         "<th>method</th><th>on</th><th>scenes</th><th>time, in none's</th><th>RMSE, in none's</th>"
         "<th>nothing is both faster and nearer</th>",
         rows);
@@ -90,7 +91,7 @@ std::string frontsTable(const ErrorTime& found) {
         for (const auto& [seconds, method] : kept) names += (names.empty() ? "" : ", ") + escapedHtml(method);
         rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escapedHtml(scene.comparison.scene), names);
     }
-    return table("<th>scene</th><th>methods that nothing beats in both, by time</th>", rows);
+    return cardTable("<th>scene</th><th>methods that nothing beats in both, by time</th>", rows);
 }
 
 std::string rowsTable(const ErrorTime& found) {
@@ -99,7 +100,8 @@ std::string rowsTable(const ErrorTime& found) {
         for (const compare::Row& row : scene.comparison.rows)
             rows += fmt::format("<tr><td>{}</td>{}</tr>\n", escapedHtml(scene.comparison.scene),
                                 compare::reportCells(row));
-    return "<details><summary>All rows</summary>\n" + table("<th>scene</th>" + compare::reportHeads(), rows) +
+    return "<details><summary>All rows</summary>\n" +
+           cardTable("<th>scene</th>" + compare::reportHeads(), rows) +
            "</details>\n<h2>Definitions</h2><div class='card'>" + compare::reportDefinitions() + "</div>\n";
 }
 

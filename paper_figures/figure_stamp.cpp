@@ -1,11 +1,11 @@
 #include "paper_figures/figure_stamp.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/error.h"
+#include "pipeline/read_file.h"
 #include "pipeline/scene_folders.h"
 #include "pipeline/sweep/content_hash.h"
 #include "pipeline/version.h"
@@ -19,9 +19,7 @@ using Json = nlohmann::ordered_json;
 std::optional<std::string> bytesOf(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
-    std::ifstream in(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    return in.bad() ? std::nullopt : std::optional(std::move(bytes));
+    return readText(path);
 }
 
 /// Names and contents of the files of the first folder of scenes that is there.

@@ -8,6 +8,7 @@
 #include "pipeline/compare/base64.h"
 #include "pipeline/compare/error_map.h"
 #include "pipeline/compare/report_page.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
 
@@ -103,13 +104,6 @@ std::vector<Column> columnsOf(const FilterStudy& study) {
     return columns;
 }
 
-/// What rounds to 0 has no sign.
-std::string cell(double value, const char* format) {
-    std::string shown = fmt::format(fmt::runtime(format), value);
-    if (shown.starts_with('-') && shown.find_first_of("123456789") == std::string::npos) shown.erase(0, 1);
-    return fmt::format("<td data-value='{}'>{}</td>", value, shown);
-}
-
 std::string table(const FilterStudy& study) {
     const std::vector<Column> columns = columnsOf(study);
     std::string out = "<table><thead><tr><th>filter</th><th>R, px</th>";
@@ -121,9 +115,9 @@ std::string table(const FilterStudy& study) {
     for (const FilterRow& row : study.rows) rows.push_back(&row);
     std::ranges::sort(rows, {}, [&](const FilterRow* row) { return columns.front().value(*row); });
     for (const FilterRow* row : rows) {
-        out +=
-            fmt::format("<tr><td>{}</td>{}", escapedHtml(row->filter.name), cell(row->filter.radius, "{:g}"));
-        for (const Column& column : columns) out += cell(column.value(*row), column.format);
+        out += fmt::format("<tr><td>{}</td>{}", escapedHtml(row->filter.name),
+                           numberCell(row->filter.radius, "{:g}"));
+        for (const Column& column : columns) out += numberCell(column.value(*row), column.format);
         out += "</tr>\n";
     }
     return out + "</tbody></table>\n";

@@ -5,6 +5,7 @@
 #include "paper_figures/claims_table.h"
 #include "paper_figures/page_parts.h"
 #include "pipeline/compare/report_page.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
 
@@ -25,7 +26,7 @@ std::string rowOf(const MadeFigure& made) {
                "style='text-align:left'><code>edgewise figure {}{} -o DIR</code></td>",
                nameCell(made), escapedHtml(made.figure->source), escapedHtml(made.figure->what),
                escapedHtml(made.figure->name), made.quick ? " --quick" : "") +
-           (made.page.empty() ? "<td data-value=''></td>" : number(made.seconds, "{:.1f}")) + "</tr>\n";
+           (made.page.empty() ? emptyCell() : numberCell(made.seconds, "{:.1f}")) + "</tr>\n";
 }
 
 std::vector<ClaimsOf> claimsOfAll(const std::vector<MadeFigure>& made) {
@@ -47,7 +48,7 @@ std::string indexHtml(const std::vector<MadeFigure>& made) {
                "href='data:,'><style>{}</style>"
                "</head><body><main><h1>Figures</h1><p>edgewise {}; {:.0f} s for all of them</p>\n",
                compare::kReportStyle, escapedHtml(version()), seconds) +
-           table(
+           cardTable(
                "<th>figure</th><th>of</th><th style='text-align:left'>what</th><th "
                "style='text-align:left'>command</th><th>seconds</th>",
                rows) +

@@ -7,6 +7,7 @@
 #include "paper_figures/drawing.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
+#include "pipeline/html_table.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/project.h"
 #include "pipeline/resolve_camera.h"
@@ -175,13 +176,13 @@ std::string rowsTable(const std::vector<GatherRow>& rows) {
     std::string out;
     for (const GatherRow& r : rows) {
         const GatherCounts& c = r.counts;
-        out += fmt::format("<tr><td>{}</td><td></td>", r.name) + number(double(c.covered), "{:.0f}") +
-               number(double(c.needed), "{:.0f}") + number(double(c.thickened), "{:.0f}") +
-               number(double(c.clipped), "{:.0f}") +
-               number(percent(c.thickened - c.needed, c.needed), "{:.1f}") +
-               number(percent(c.clipped - c.needed, c.needed), "{:.1f}") + "</tr>\n";
+        out += fmt::format("<tr><td>{}</td><td></td>", r.name) + numberCell(double(c.covered), "{:.0f}") +
+               numberCell(double(c.needed), "{:.0f}") + numberCell(double(c.thickened), "{:.0f}") +
+               numberCell(double(c.clipped), "{:.0f}") +
+               numberCell(percent(c.thickened - c.needed, c.needed), "{:.1f}") +
+               numberCell(percent(c.clipped - c.needed, c.needed), "{:.1f}") + "</tr>\n";
     }
-    return table(
+    return cardTable(
         "<th>triangles</th><th></th><th>samples covered</th><th>needed</th><th>thickened</th><th>clipped "
         "to the box</th><th>in vain, % of needed</th><th>in vain with the box, %</th>",
         out);

@@ -8,6 +8,7 @@
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
 #include "pipeline/compare/comparison_tables.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/methods/method.h"
 #include "pipeline/methods/nsaa.h"
@@ -152,8 +153,8 @@ std::string sharesTable(const std::vector<PixelShare>& shares) {
     for (const PixelShare& s : shares)
         rows += fmt::format("<tr><td>{}</td><td>{}, R {:g}</td>", escapedHtml(s.method),
                             escapedHtml(s.filter), s.radius) +
-                number(s.weight, "{:.12f}") + "</tr>\n";
-    return table("<th>method</th><th>filter</th><th>weight of the blue triangle</th>", rows);
+                numberCell(s.weight, "{:.12f}") + "</tr>\n";
+    return cardTable("<th>method</th><th>filter</th><th>weight of the blue triangle</th>", rows);
 }
 
 std::string sharesCsv(const std::vector<PixelShare>& shares) {

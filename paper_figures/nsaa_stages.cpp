@@ -2,22 +2,20 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <sstream>
 
 #include "paper_figures/drawing.h"
 #include "paper_figures/figure_plot.h"
 #include "paper_figures/page_parts.h"
 #include "paper_figures/picture_row.h"
-#include "paper_figures/temporary_folder.h"
-#include "pipeline/error.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/methods/method.h"
 #include "pipeline/project.h"
+#include "pipeline/read_file.h"
 #include "pipeline/resolve_camera.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -29,12 +27,6 @@ constexpr PixelBox kCrop{270, 1150, 526, 1278};
 constexpr const char* kGather = "#3a7d44";
 constexpr const char* kWeigh = "#b3261e";
 constexpr const char* kBlend = "#1b6ca8";
-
-std::string textOf(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw FailureError(path.string(), "a stage left nothing there");
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A column of a CSV file with a header, as numbers; what is none is -1.
 std::vector<double> column(const std::string& csv, int index) {
@@ -104,12 +96,12 @@ Pipeline pipelineOf(Progress& progress) {
     options.size = {kFilmWidth, kFilmHeight};
     const ResolvedCamera camera = resolveCamera(scene, options, film);
     film.crop = kCrop;
-    const TemporaryFolder folder;
+    const ScopedPath folder = temporaryFolder();
     RenderOptions making;
     making.device = DeviceChoice::kCpu, making.dump_dir = folder.path();
     const Prefilter filter = makePrefilter("gaussian", {}, {});
     const MethodResult made = runMethod(parseMethod("nsaa"), {scene, camera, film, filter, making, progress});
-    const auto file = [&](const char* name) { return textOf(folder.path() / name); };
+    const auto file = [&](const char* name) { return readText(folder.path() / name); };
 
     Pipeline out;
     const ScreenScene screen = project(scene, camera, film);

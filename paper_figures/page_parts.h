@@ -29,9 +29,4 @@ struct FigureWords {
 /// The page: words, `body` (HTML), the styles of pictures and plots, and tables that sort.
 std::string figurePage(const FigureWords& words, const std::string& body);
 
-/// A sortable table in a card; `heads` and `rows` are HTML.
-std::string table(const std::string& heads, const std::string& rows);
-/// A cell that sorts by its value.
-std::string number(double value, const char* format);
-
 }  // namespace edgewise::figures

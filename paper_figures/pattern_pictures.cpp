@@ -8,6 +8,7 @@
 #include "paper_figures/page_parts.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/error.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/resolve_camera.h"
@@ -135,9 +136,9 @@ PictureRow enlarged(const PatternPlan& plan, const PatternPart& part, const std:
 }
 
 std::string errorCells(const std::optional<judge::ErrorMetrics>& error) {
-    if (!error) return "<td data-value='0'>0</td><td data-value=''></td><td data-value=''></td>";
-    return number(error->rmse, "{:.5f}") + (error->psnr ? number(*error->psnr, "{:.2f}") : "<td></td>") +
-           number(error->flip, "{:.4f}");
+    if (!error) return sortedCell(0.0, "0") + emptyCell() + emptyCell();
+    return numberCell(error->rmse, "{:.5f}") + numberCell(error->psnr, "{:.2f}") +
+           numberCell(error->flip, "{:.4f}");
 }
 
 }  // namespace
@@ -167,7 +168,7 @@ std::string patternTable(const PatternPictures& found) {
         rows += fmt::format("<tr><td>{}</td><td>{}, R {:g}</td>", escapedHtml(row.method.method),
                             row.method.filter.empty() ? "box" : escapedHtml(row.method.filter), row.radius) +
                 errorCells(row.of_paper) + errorCells(row.of_own) + "</tr>\n";
-    return table(
+    return cardTable(
         "<th>method</th><th>filter</th><th>RMSE against nsaa, Gaussian R 2</th><th>PSNR, "
         "dB</th><th>FLIP</th><th>RMSE against nsaa, own filter</th><th>PSNR, dB</th><th>FLIP</th>",
         rows);

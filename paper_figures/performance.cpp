@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "paper_figures/performance_measure.h"
-#include "paper_figures/temporary_folder.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -68,7 +68,7 @@ PerformanceEffort quickEffort() {
 }  // namespace
 
 std::vector<FigureFile> makePerformance(const FigureInput& input) {
-    const TemporaryFolder scratch;
+    const ScopedPath scratch = temporaryFolder();
     Performance found =
         measurePerformance(input.quick ? quickEffort() : fullEffort(), scratch.path(), input.progress);
     found.quick = input.quick;

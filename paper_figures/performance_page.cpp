@@ -6,6 +6,7 @@
 #include "paper_figures/stage_ideals.h"
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/report_page.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
 
@@ -22,36 +23,24 @@ td:nth-child(2),th:nth-child(2){text-align:right}.second td:nth-child(2),.second
 .scroll+p{margin-top:8px}p.under{font-size:13px;color:#444;margin:8px 0 0}
 )css";
 
-std::string cell(const std::optional<double>& value, const char* format) {
-    if (!value) return "<td data-value=''></td>";
-    return fmt::format("<td data-value='{}'>{}</td>", *value, fmt::format(fmt::runtime(format), *value));
-}
-
 std::optional<double> milliseconds(const std::optional<double>& seconds) {
     return seconds ? std::optional(1e3 * *seconds) : std::nullopt;
 }
 
-std::string table(const std::string& heads, const std::string& rows, const char* kind = "") {
-    return fmt::format(
-        "<div class='card scroll'><table class='{}'><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table>"
-        "</div>\n",
-        kind, heads, rows);
-}
-
 std::string barCells(const Bar& bar) {
-    return "<td>" + escapedHtml(bar.peer) + "</td>" + cell(milliseconds(bar.seconds), "{:.1f}") +
-           cell(bar.ratio, "{:.2f}") +
+    return "<td>" + escapedHtml(bar.peer) + "</td>" + numberCell(milliseconds(bar.seconds), "{:.1f}") +
+           numberCell(bar.ratio, "{:.2f}") +
            (!bar.ratio ? "<td></td>" : fmt::format("<td class='{0}'>{0}</td>", bar.met() ? "met" : "missed"));
 }
 
 std::string barsTable(const Performance& found) {
     std::string rows;
     for (const BarRow& row : barRows(found))
-        rows +=
-            fmt::format("<tr><td>{}</td>{}{}{}<td class='words'>{}</td></tr>\n",
-                        escapedHtml(row.times->scene.title), cell(milliseconds(row.nsaa_seconds), "{:.1f}"),
-                        barCells(row.at_most), barCells(row.aim), escapedHtml(row.times->scene.remark));
-    return table(
+        rows += fmt::format("<tr><td>{}</td>{}{}{}<td class='words'>{}</td></tr>\n",
+                            escapedHtml(row.times->scene.title),
+                            numberCell(milliseconds(row.nsaa_seconds), "{:.1f}"), barCells(row.at_most),
+                            barCells(row.aim), escapedHtml(row.times->scene.remark));
+    return cardTable(
         "<th>scene</th><th>nsaa, ms</th><th>bar</th><th>ms</th><th>ratio</th><th></th><th>aim</th><th>ms</th>"
         "<th>ratio</th><th></th><th class='words'></th>",
         rows);
@@ -69,7 +58,7 @@ std::string summary(const Performance& found) {
 }
 
 std::string fitText(const std::optional<PowerFit>& fit) {
-    if (!fit) return "<td data-value=''></td><td></td>";
+    if (!fit) return emptyCell() + "<td></td>";
     return fmt::format("<td data-value='{0}'>{0:.2f}{1}</td><td>{2:.2f} &ndash; {3:.2f}</td>", fit->exponent,
                        fit->standard_error ? fmt::format(" &plusmn; {:.2f}", *fit->standard_error) : "",
                        fit->least_local, fit->most_local);
@@ -81,13 +70,13 @@ std::string growthTable(const Performance& found) {
         for (const std::string& stage : shownStages(series)) {
             const auto points = growthPoints(series, stage);
             if (points.empty()) continue;
-            rows +=
-                fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}{}{}</tr>\n",
-                            escapedHtml(series.family), series.by_triangles ? "triangles" : "pixels a side",
-                            escapedHtml(series.method), stage, fitText(fitPower(points)),
-                            cell(1e3 * points.front().y, "{:.3g}"), cell(1e3 * points.back().y, "{:.3g}"));
+            rows += fmt::format(
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}{}{}</tr>\n", escapedHtml(series.family),
+                series.by_triangles ? "triangles" : "pixels a side", escapedHtml(series.method), stage,
+                fitText(fitPower(points)), numberCell(1e3 * points.front().y, "{:.3g}"),
+                numberCell(1e3 * points.back().y, "{:.3g}"));
         }
-    return table(
+    return cardTable(
         "<th>scene</th><th>grows with</th><th>method</th><th>stage</th><th>exponent</th><th>between "
         "neighbours</th><th>first, ms</th><th>last, ms</th>",
         rows, "second");
@@ -107,17 +96,17 @@ std::string unitsTable(const Performance& found) {
     for (const SceneTimes& times : found.scenes) {
         const compare::Row* nsaa = rowOf(times, "nsaa");
         if (!nsaa || nsaa->seconds.empty()) continue;
-        std::string line =
-            fmt::format("<tr><td>{}</td>{}", escapedHtml(times.scene.title), cell(nsaa->peak_mib, "{:.0f}"));
+        std::string line = fmt::format("<tr><td>{}</td>{}", escapedHtml(times.scene.title),
+                                       numberCell(nsaa->peak_mib, "{:.0f}"));
         const bool first = rows.empty();
         for (const UnitCost& unit : unitCosts(*nsaa)) {
             if (first)
                 heads += fmt::format("<th>{}s</th><th>ns a {}, {}</th>", unit.title, unit.title, unit.stage);
-            line += cell(unit.number, "{:.0f}") + cell(unit.nanoseconds, "{:.1f}");
+            line += numberCell(unit.number, "{:.0f}") + numberCell(unit.nanoseconds, "{:.1f}");
         }
         rows += line + "</tr>\n";
     }
-    return table(heads, rows, "counts");
+    return cardTable(heads, rows, "counts");
 }
 
 std::string distanceTable(const Performance& found) {
@@ -126,13 +115,13 @@ std::string distanceTable(const Performance& found) {
         const compare::Row* nsaa = rowOf(times, "nsaa");
         if (!nsaa || nsaa->seconds.empty()) continue;
         for (const StageDistance& d : stageDistances(*nsaa, found.rates))
-            rows += fmt::format("<tr><td>{}</td><td>{}</td>{}{}{}{}<td>{}</td>{}</tr>\n",
-                                escapedHtml(times.scene.title), d.stage, cell(1e3 * d.seconds, "{:.2f}"),
-                                cell(d.bytes / 0x1p20, "{:.2f}"), cell(1e-6 * d.flops, "{:.2f}"),
-                                cell(1e3 * d.ideal_seconds, "{:.3f}"),
-                                d.memory_bound ? "bytes" : "arithmetic", cell(d.distance(), "{:.1f}"));
+            rows += fmt::format(
+                "<tr><td>{}</td><td>{}</td>{}{}{}{}<td>{}</td>{}</tr>\n", escapedHtml(times.scene.title),
+                d.stage, numberCell(1e3 * d.seconds, "{:.2f}"), numberCell(d.bytes / 0x1p20, "{:.2f}"),
+                numberCell(1e-6 * d.flops, "{:.2f}"), numberCell(1e3 * d.ideal_seconds, "{:.3f}"),
+                d.memory_bound ? "bytes" : "arithmetic", numberCell(d.distance(), "{:.1f}"));
     }
-    return table(
+    return cardTable(
         "<th>scene</th><th>stage</th><th>measured, ms</th><th>moves, MiB</th><th>computes, "
         "Mflop</th><th>ideal, ms</th><th>bound by</th><th>times the ideal</th>",
         rows, "second");
@@ -143,9 +132,9 @@ std::string modelTable(const std::string& filter, double radius) {
     for (const StageModel& model : stageModels(filter, radius))
         for (const IdealPart& part : model.parts)
             rows += fmt::format("<tr><td>{}</td><td>{}</td>{}{}<td class='words'>{}</td></tr>\n", model.stage,
-                                part.count, cell(part.bytes, "{:.0f}"), cell(part.flops, "{:.0f}"),
-                                escapedHtml(part.words));
-    return table(
+                                part.count, numberCell(part.bytes, "{:.0f}"),
+                                numberCell(part.flops, "{:.0f}"), escapedHtml(part.words));
+    return cardTable(
         "<th>stage</th><th>each</th><th>bytes</th><th>flops</th><th class='words'>what these are</th>", rows,
         "second");
 }
@@ -165,7 +154,7 @@ std::string methodsTable(const Performance& found) {
         for (const compare::Row& row : times.comparison.rows)
             rows += fmt::format("<tr><td>{}</td>{}</tr>\n", escapedHtml(times.scene.title),
                                 compare::reportCells(row));
-    return table("<th>scene</th>" + compare::reportHeads(), rows, "second");
+    return cardTable("<th>scene</th>" + compare::reportHeads(), rows, "second");
 }
 
 std::string notesHtml(const Performance& found) {

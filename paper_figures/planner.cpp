@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "paper_figures/compared_scene.h"
-#include "paper_figures/temporary_folder.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/plan.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -85,7 +85,7 @@ PlannerScene measureScene(const std::string& name, const Effort& effort, const s
 }
 
 Planner measure(const Effort& effort, Progress& progress) {
-    const TemporaryFolder scratch;
+    const ScopedPath scratch = temporaryFolder();
     Planner found;
     found.runs = effort.runs, found.budget_seconds = effort.budget_seconds;
     for (const std::string& name : effort.scenes) {

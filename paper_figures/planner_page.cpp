@@ -7,6 +7,7 @@
 #include "paper_figures/planner.h"
 #include "paper_figures/value_grid.h"
 #include "pipeline/compare/comparison_tables.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::figures {
@@ -46,23 +47,22 @@ FigurePlot savingsPlot(const std::vector<Saving>& savings, bool field) {
 }
 
 std::string milliseconds(double seconds) {
-    return number(1e3 * seconds, "{:.3g}");
+    return numberCell(1e3 * seconds, "{:.3g}");
 }
 
 std::string savingsTable(const std::vector<Saving>& savings) {
     std::string rows;
     for (const Saving& s : savings) {
-        rows +=
-            fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(s.scene), escapedHtml(s.name),
-                        s.used ? "yes" : "no") +
-            (s.ratio ? number(*s.ratio, s.at_least ? "&gt; {:.2f}" : "{:.2f}") : "<td data-value=''></td>");
-        rows += s.stage.empty() ? "<td></td><td data-value=''></td><td data-value=''></td>"
+        rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(s.scene),
+                            escapedHtml(s.name), s.used ? "yes" : "no") +
+                numberCell(s.ratio, s.at_least ? "&gt; {:.2f}" : "{:.2f}");
+        rows += s.stage.empty() ? "<td></td>" + emptyCell() + emptyCell()
                                 : "<td>" + s.stage + "</td>" + milliseconds(s.stage_without) +
                                       milliseconds(s.stage_planned);
         rows +=
             fmt::format("<td style='white-space:normal;text-align:left'>{}</td></tr>\n", escapedHtml(s.why));
     }
-    return table(
+    return cardTable(
         "<th>scene</th><th>saving</th><th>in use</th><th>time without, in the plan's</th><th>stage that "
         "gains most</th>"
         "<th>ms without</th><th>ms</th><th>the plan says</th>",

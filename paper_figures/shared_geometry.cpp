@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "paper_figures/compared_scene.h"
-#include "paper_figures/temporary_folder.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/stopwatch.h"
+#include "pipeline/read_file.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -40,15 +39,10 @@ Effort effortOf(bool quick) {
     return {128, 3, 3, {"sphere-minus-box", "gyroid", "spheres-50", "menger-3"}, kMethods};
 }
 
-std::string textOf(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 void measureScene(const std::string& name, const Effort& effort, const std::filesystem::path& folder,
                   SharedGeometry& found, Progress& progress) try {
     const std::filesystem::path file = folder / (name + ".sdf.json");
-    writeAtomically(file, bareScene(textOf(findScene(name)), name));
+    writeAtomically(file, bareScene(readText(findScene(name)), name));
     Labelled labelled(progress, name);
     const compare::ScheduleOptions schedule{effort.runs, HUGE_VAL, folder, true};
     compare::Comparison scene =
@@ -64,7 +58,7 @@ void measureScene(const std::string& name, const Effort& effort, const std::file
 
 SharedGeometry measure(bool quick, Progress& progress) {
     const Effort effort = effortOf(quick);
-    const TemporaryFolder folder;
+    const ScopedPath folder = temporaryFolder();
     Stopwatch watch;
     SharedGeometry found;
     found.quick = quick, found.runs = effort.runs, found.reference = "nsaa";

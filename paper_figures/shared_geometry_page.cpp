@@ -8,6 +8,7 @@
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/compare/mesh_reference_text.h"
 #include "pipeline/compare/pareto_plot.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::figures {
@@ -52,15 +53,15 @@ std::string scenesTable(const SharedGeometry& found) {
         const compare::MeshReference& reference = *scene.mesh_reference;
         const compare::MeshLevel &first = reference.levels.front(), &last = reference.levels.back();
         rows += fmt::format("<tr><td>{}</td>", escapedHtml(scene.scene)) +
-                number(static_cast<double>(first.mesh.triangles), "{:.0f}") +
-                number(first.mesh.error_px, "{:.3f}") + number(first.mesh.seconds, "{:.1f}") +
-                number(reference.silhouette_there_px, "{:.3f}") +
-                number(reference.silhouette_back_px, "{:.3f}") +
-                number(static_cast<double>(last.mesh.triangles), "{:.0f}") +
-                number(last.mesh.error_px, "{:.3f}") + number(last.left ? last.left->rmse : 0.0, "{:.2e}") +
-                "</tr>\n";
+                numberCell(static_cast<double>(first.mesh.triangles), "{:.0f}") +
+                numberCell(first.mesh.error_px, "{:.3f}") + numberCell(first.mesh.seconds, "{:.1f}") +
+                numberCell(reference.silhouette_there_px, "{:.3f}") +
+                numberCell(reference.silhouette_back_px, "{:.3f}") +
+                numberCell(static_cast<double>(last.mesh.triangles), "{:.0f}") +
+                numberCell(last.mesh.error_px, "{:.3f}") +
+                numberCell(last.left ? last.left->rmse : 0.0, "{:.2e}") + "</tr>\n";
     }
-    return table(
+    return cardTable(
         "<th>scene</th><th>triangles of rows</th><th>off the surface, px</th><th>meshing, "
         "s</th><th>silhouette of "
         "the field to the mesh's, px</th><th>and back</th><th>triangles of the reference</th><th>off the "
@@ -75,11 +76,11 @@ std::string rowsTable(const SharedGeometry& found) {
         for (const Row& row : scene.rows)
             rows += fmt::format(
                 "<tr><td>{}</td>{}{}{}</tr>\n", escapedHtml(scene.scene), compare::reportCells(row),
-                row.reference_error ? number(row.reference_error->rmse, "{:.2e}") : "<td></td>",
-                row.antialiasing ? number(row.antialiasing->rmse, "{:.2e}") : "<td></td>");
-    return table("<th>scene</th>" + compare::reportHeads() +
-                     "<th>the reference's own RMSE</th><th>antialiasing alone, RMSE</th>",
-                 rows) +
+                row.reference_error ? numberCell(row.reference_error->rmse, "{:.2e}") : "<td></td>",
+                row.antialiasing ? numberCell(row.antialiasing->rmse, "{:.2e}") : "<td></td>");
+    return cardTable("<th>scene</th>" + compare::reportHeads() +
+                         "<th>the reference's own RMSE</th><th>antialiasing alone, RMSE</th>",
+                     rows) +
            "<h2>Definitions</h2><div class='card'>" + compare::reportDefinitions() + "</div>\n";
 }
 

@@ -7,6 +7,7 @@
 #include "paper_figures/page_parts.h"
 #include "paper_figures/sphere_tracing.h"
 #include "pipeline/compare/report_page.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
 
@@ -24,15 +25,13 @@ std::string runsTable(const std::vector<TracedScene>& scenes) {
             const bool his = run.setting == "keinert" || run.setting == "convex shortcut";
             rows +=
                 fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(scene.name), escapedHtml(run.setting)) +
-                number(double(run.evaluations) / double(scene.rays), "{:.2f}") +
-                number(scene.ratioOf(run), "{:.3f}") + number(1e3 * run.seconds, "{:.0f}") +
-                number(scene.runs[0].seconds / run.seconds, "{:.3f}") +
-                number(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
-                (scene.published && his ? number(*scene.published, "{:.2f}")
-                                        : std::string("<td data-value=''></td>")) +
-                "</tr>\n";
+                numberCell(double(run.evaluations) / double(scene.rays), "{:.2f}") +
+                numberCell(scene.ratioOf(run), "{:.3f}") + numberCell(1e3 * run.seconds, "{:.0f}") +
+                numberCell(scene.runs[0].seconds / run.seconds, "{:.3f}") +
+                numberCell(100.0 * double(run.changed) / double(scene.rays), "{:.4f}") +
+                numberCell(his ? scene.published : std::nullopt, "{:.2f}") + "</tr>\n";
         }
-    return table(
+    return cardTable(
         "<th>scene</th><th>setting</th><th>evaluations a ray</th><th>times fewer</th><th>ms</th><th>times "
         "faster</th><th>other hits, %</th><th>published: times faster</th>",
         rows);
@@ -46,10 +45,10 @@ std::string meansTable(const SphereTracing& found) {
             for (const TraceRun& other : scene.runs)
                 if (other.setting == run.setting) least = std::min(least, scene.ratioOf(other));
         rows += fmt::format("<tr><td>{}</td><td></td>", escapedHtml(run.setting)) +
-                number(geometricMeanRatio(found, run.setting), "{:.3f}") + number(least, "{:.3f}") +
+                numberCell(geometricMeanRatio(found, run.setting), "{:.3f}") + numberCell(least, "{:.3f}") +
                 "</tr>\n";
     }
-    return table(
+    return cardTable(
         "<th>setting</th><th></th><th>times fewer evaluations, geometric mean</th><th>least of all "
         "scenes</th>",
         rows);
@@ -62,7 +61,7 @@ std::string candidatesTable(const SphereTracing& found) {
             "<tr><td>{}</td><td>{} steps</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             escapedHtml(c.scene), c.steps, c.pixels, c.last.wrong, c.last.holes, c.screen.wrong,
             c.screen.holes);
-    return table(
+    return cardTable(
         "<th>scene</th><th></th><th>pixels</th><th>last point: wrong "
         "surface</th><th>holes</th><th>screen-space "
         "candidate: wrong surface</th><th>holes</th>",
@@ -73,10 +72,10 @@ std::string jumpsTable(const SphereTracing& found) {
     std::string rows;
     for (const JumpCount& j : found.jumps)
         rows += fmt::format("<tr><td>{}</td><td></td><td>{}</td>", escapedHtml(j.scene), j.pairs) +
-                number(j.median_before, "{:.3g}") + number(j.median_after, "{:.3g}") +
-                number(j.median_after > 0.0 ? j.median_before / j.median_after : INFINITY, "{:.1f}") +
+                numberCell(j.median_before, "{:.3g}") + numberCell(j.median_after, "{:.3g}") +
+                numberCell(j.median_after > 0.0 ? j.median_before / j.median_after : INFINITY, "{:.1f}") +
                 "</tr>\n";
-    return table(
+    return cardTable(
         "<th>scene</th><th></th><th>pairs of pixels</th><th>median jump</th><th>after 3 steps</th><th>falls "
         "by</th>",
         rows);
@@ -86,11 +85,11 @@ std::string pruningTable(const SphereTracing& found) {
     std::string rows;
     for (const PruningCount& p : found.pruning)
         rows += fmt::format("<tr><td>{}</td><td>{}x{}</td>", escapedHtml(p.scene), p.width, p.height) +
-                number(p.instructions_whole, "{:.0f}") + number(p.instructions_pruned, "{:.1f}") +
-                number(p.seconds_whole, "{:.3f}") + number(p.seconds_pruned, "{:.3f}") +
-                number(p.seconds_whole / p.seconds_pruned, "{:.1f}") + number(p.build_seconds, "{:.3f}") +
-                fmt::format("<td>{}</td></tr>\n", p.differing);
-    return table(
+                numberCell(p.instructions_whole, "{:.0f}") + numberCell(p.instructions_pruned, "{:.1f}") +
+                numberCell(p.seconds_whole, "{:.3f}") + numberCell(p.seconds_pruned, "{:.3f}") +
+                numberCell(p.seconds_whole / p.seconds_pruned, "{:.1f}") +
+                numberCell(p.build_seconds, "{:.3f}") + fmt::format("<td>{}</td></tr>\n", p.differing);
+    return cardTable(
         "<th>scene</th><th>size</th><th>instructions an evaluation</th><th>pruned</th><th>whole, "
         "s</th><th>pruned, "
         "s</th><th>times "
@@ -110,9 +109,9 @@ std::string changesTable(const SphereTracing& found) {
         rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapedHtml(scene.name),
                             escapedHtml(scene.runs.back().setting), scene.changed.size());
         for (const HitChange kind : kHitChanges) rows += fmt::format("<td>{}</td>", countOf(scene, kind));
-        rows += number(100.0 * double(scene.changed.size()) / double(scene.rays), "{:.4f}") + "</tr>\n";
+        rows += numberCell(100.0 * double(scene.changed.size()) / double(scene.rays), "{:.4f}") + "</tr>\n";
     }
-    return table(
+    return cardTable(
         "<th>scene</th><th></th><th>other "
         "hits</th><th>silhouette</th><th>grazing</th><th>narrow</th><th>alone</th><th>of "
         "all "

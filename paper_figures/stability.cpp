@@ -5,6 +5,7 @@
 
 #include "paper_figures/page_parts.h"
 #include "paper_figures/stability_atlas.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_report.h"
@@ -39,11 +40,12 @@ std::string cellsTable(const std::vector<AtlasCell>& cells) {
     std::string rows;
     for (const AtlasCell& c : cells)
         rows += fmt::format("<tr><td>{}</td><td>{}</td>", escapedHtml(c.case_name), escapedHtml(c.filter)) +
-                number(c.max_error, "{:.2e}") + number(c.of_bound, "{:.3g}") + number(c.at, "{:.3g}") +
-                number(c.max_float_error, "{:.2e}") + number(c.of_float_bound, "{:.3g}") +
-                number(static_cast<double>(c.ownership_errors), "{:.0f}") +
+                numberCell(c.max_error, "{:.2e}") + numberCell(c.of_bound, "{:.3g}") +
+                numberCell(c.at, "{:.3g}") + numberCell(c.max_float_error, "{:.2e}") +
+                numberCell(c.of_float_bound, "{:.3g}") +
+                numberCell(static_cast<double>(c.ownership_errors), "{:.0f}") +
                 fmt::format("<td>{}</td></tr>\n", c.kept ? "kept" : "broken");
-    return table(
+    return cardTable(
         "<th>case</th><th>filter</th><th>largest error</th><th>of its bound</th><th>at</th><th>fp32, largest "
         "error</th><th>of its bound</th><th>wrong owners</th><th>promises</th>",
         rows);

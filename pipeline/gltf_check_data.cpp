@@ -6,6 +6,7 @@
 #include "pipeline/gltf_document.h"
 #include "pipeline/gltf_files.h"
 #include "pipeline/gltf_meshopt.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise {
 namespace {

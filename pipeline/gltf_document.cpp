@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "pipeline/error.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise {
 namespace {
@@ -90,13 +91,6 @@ nlohmann::json parseJson(const std::string& source, std::string_view text) {
     }
 }
 
-void needRegularFile(const std::filesystem::path& path, const std::string& what) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(what, "no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(what, "is not a regular file");
-}
-
 /// Before all of a large file is read: does it start like a GLB of its size, or like a JSON object?
 void checkBeginning(const std::filesystem::path& path, const std::string& source) {
     std::array<char, 256> bytes{};
@@ -130,20 +124,6 @@ int jsonDepth(std::string_view text, int limit) {
             --depth;
     }
     return deepest;
-}
-
-std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& what) {
-    needRegularFile(path, what);
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw InputError(what, "cannot be read: " + error.message());
-    if (size > kMaxFileBytes)
-        throw FailureError(what, fmt::format("{} bytes, the limit is {}", size, kMaxFileBytes));
-    std::vector<std::uint8_t> bytes(size);
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        throw InputError(what, "cannot be read");
-    return bytes;
 }
 
 GltfDocument readGltfDocument(const std::filesystem::path& path) {

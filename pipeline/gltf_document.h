@@ -11,8 +11,7 @@
 
 namespace edgewise {
 
-/// Stated limits. tinygltf and the image decoder take sizes as int, hence the first.
-inline constexpr std::uint64_t kMaxFileBytes = 0x7fffffff;
+/// Stated limits.
 inline constexpr std::uint64_t kMaxJsonBytes = 0x20000000;
 inline constexpr int kMaxJsonDepth = 256;
 
@@ -30,9 +29,5 @@ GltfDocument readGltfDocument(const std::filesystem::path& path);
 
 /// The deepest nesting of arrays and objects in JSON text, valid or not; stops counting above `limit`.
 int jsonDepth(std::string_view text, int limit);
-
-/// A regular file's bytes. Throws InputError naming `what`; FailureError when it is larger than
-/// kMaxFileBytes.
-std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace edgewise

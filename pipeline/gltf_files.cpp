@@ -7,6 +7,7 @@
 
 #include "pipeline/error.h"
 #include "pipeline/gltf_document.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise {
 namespace {

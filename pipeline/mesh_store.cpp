@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/mesh_report.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise {
 namespace {
@@ -57,9 +56,7 @@ std::filesystem::path MeshStore::fileOf(const MeshChoice& choice) const {
 }
 
 std::optional<FilmPolygons> MeshStore::find(const MeshChoice& choice) const try {
-    std::ifstream file(fileOf(choice), std::ios::binary);
-    if (!file) return std::nullopt;
-    Reader reader({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    Reader reader(readText(fileOf(choice)));
     FilmPolygons found;
     std::vector<char> report;
     reader.take(report), reader.take(found.mesh.position_world), reader.take(found.mesh.triangles);
@@ -79,17 +76,6 @@ void MeshStore::keep(const MeshChoice& choice, const FilmPolygons& polygons) con
     writeAtomically(fileOf(choice), writer.bytes);
 } catch (const InputError&) {
 } catch (const FailureError&) {
-}
-
-MeshFolder::MeshFolder(std::filesystem::path path) : path_(std::move(path)) {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-    std::filesystem::create_directories(path_, error);
-}
-
-MeshFolder::~MeshFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
 }
 
 }  // namespace edgewise

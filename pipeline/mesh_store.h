@@ -29,17 +29,4 @@ class MeshStore {
     std::filesystem::path folder_;
 };
 
-/// A store's folder for as long as this lives; what was there before is gone.
-class MeshFolder {
-  public:
-    explicit MeshFolder(std::filesystem::path path);
-    ~MeshFolder();
-    MeshFolder(const MeshFolder&) = delete;
-    MeshFolder& operator=(const MeshFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 }  // namespace edgewise

@@ -9,6 +9,8 @@
 #include <bit>
 #include <functional>
 
+#include "pipeline/error.h"
+
 namespace edgewise {
 namespace {
 
@@ -163,6 +165,18 @@ Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces&
     if (!options.keeps("fetch") && takesTexelsAsTheyAre(scene))
         addOneTexelShades(pieces, shading, plan.constant);
     return plan;
+}
+
+void planByEdges(const ScreenScene& screen, Plan& plan) {
+    if (std::ranges::count(screen.see_through, 1) > 0)
+        throw InputError("visibility=awj13", "knows opaque triangles only, and the scene has others");
+    plan.visibility.cell.by_edges = true;
+    plan.visibility.cell.certify = false;
+    for (PlanEntry& entry : plan.entries) {
+        if (entry.stage == "visibility") entry.runs = true, entry.why = "visibility=awj13 asks every edge";
+        if (entry.stage == "piercing")
+            entry.runs = false, entry.why = "visibility=awj13 knows no triangles that pierce others";
+    }
 }
 
 }  // namespace edgewise

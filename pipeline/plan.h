@@ -30,4 +30,8 @@ std::vector<std::optional<Shade>> constantShades(const ScreenPieces& pieces, con
 Plan makePlan(const Scene& scene, const ScreenScene& screen, const ScreenPieces& pieces,
               const Shading& shading, const RenderOptions& options);
 
+/// The same, but for visibility=awj13: EdgeVisibility asks every edge of every cell. Throws InputError where
+/// a triangle is seen through.
+void planByEdges(const ScreenScene& screen, Plan& plan);
+
 }  // namespace edgewise

@@ -14,7 +14,7 @@
 
 #include "pipeline/decode_image.h"
 #include "pipeline/error.h"
-#include "pipeline/gltf_document.h"
+#include "pipeline/read_file.h"
 #include "pipeline/srgb.h"
 
 namespace edgewise {

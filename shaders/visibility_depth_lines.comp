@@ -26,12 +26,16 @@ uint candidatePairs() {
     return count;
 }
 
+/// Whether two planes may change order in what their triangles have in common within the cell.
 bool changesOrder(uint i, uint j) {
     uint begin = cells[leaf.cell].begin;
     ScreenTriangle s = triangleAt(kept[begin + i]), t = triangleAt(kept[begin + j]);
     LocalPlane p = localPlaneAt(i), q = localPlaneAt(j);
     if (!boxesOverlap(s, t) || separates(s, t) || separates(t, s)) return false;
-    return signsAtVertices(s, p, q, frame.origin) == 3 && signsAtVertices(t, p, q, frame.origin) == 3;
+    if (signsAtVertices(s, p, q, frame.origin) != 3 || signsAtVertices(t, p, q, frame.origin) != 3) return false;
+    dvec2 lo = frame.cell.min - frame.origin;
+    dvec2 hi = frame.cell.max - frame.origin + dvec2(1.1641532182693481e-10lf, 1.1641532182693481e-10lf);
+    return signsOver(commonPart(s, t, frame.origin, lo, hi), p, q) == 3;
 }
 
 bool addFlat(LeafLine line) {

@@ -29,9 +29,9 @@
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/load_scene.h"
-#include "pipeline/mesh_store.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/scene_catalog.h"
+#include "pipeline/scoped_path.h"
 #include "pipeline/version.h"
 #include "pipeline/write_image.h"
 
@@ -83,7 +83,7 @@ class Study {
         : arguments_(arguments),
           folder_(folder),
           progress_(progress),
-          mesh_folder_(folder.path() / ".meshes") {
+          mesh_folder_(emptyFolder(folder.path() / ".meshes")) {
         options_.runs = readRuns("--runs", arguments.runs);
         if (arguments.budget) options_.budget_seconds = readBudget("--budget", *arguments.budget);
         options_.scratch = folder.path();
@@ -251,7 +251,7 @@ class Study {
     const CompareArguments& arguments_;
     const ResultFolder& folder_;
     Progress& progress_;
-    const MeshFolder mesh_folder_;  ///< meshes are made once for all workers
+    const ScopedPath mesh_folder_;  ///< meshes are made once for all workers
     compare::ScheduleOptions options_;
     Comparison comparison_;
     std::vector<Contender> contenders_;

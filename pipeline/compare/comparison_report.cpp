@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/compare/base64.h"
@@ -14,17 +13,15 @@
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
 #include "pipeline/error.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise::compare {
 namespace {
 
 std::string embedded(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (!file) throw FailureError(path.string(), "cannot be read");
-    return "data:image/png;base64," +
-           base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+    return "data:image/png;base64," + base64(readWholeFile(path, path.string()));
 }
 
 /// Inside a <script>: nothing in it may end the element.
@@ -51,14 +48,6 @@ std::string picturesJson(const Comparison& comparison, const std::filesystem::pa
     return scriptJson(json);
 }
 
-/// Sorted by `value`; nothing sorts last.
-std::string cell(const std::optional<double>& value, const std::string& shown) {
-    return fmt::format("<td data-value='{}'>{}</td>", value ? fmt::format("{}", *value) : "", shown);
-}
-std::string numberCell(const std::optional<double>& value, const char* format) {
-    return cell(value, value ? fmt::format(fmt::runtime(format), *value) : "");
-}
-
 std::string filterText(const Row& row) {
     return fmt::format("{} R {}{}", row.filter, row.radius,
                        row.sigma ? fmt::format(", s {:.3g}", *row.sigma) : "");
@@ -74,11 +63,11 @@ std::string tableRow(const Row& row) {
     const Spread s = spreadOf(row.seconds);
     std::string out = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escapedHtml(row.method),
                                   escapedHtml(filterText(row)), escapedHtml(row.device));
-    out += s.runs > 0
-               ? cell(s.median, fmt::format("{:.4g}", s.median)) +
-                     cell(s.max - s.min, fmt::format("{:.3g} &ndash; {:.3g}, {} runs", s.min, s.max, s.runs))
-               : cell({}, fmt::format("<span class='bad'>{}</span>", nameOf(row.status))) +
-                     cell({}, escapedHtml(row.why));
+    out += s.runs > 0 ? sortedCell(s.median, fmt::format("{:.4g}", s.median)) +
+                            sortedCell(s.max - s.min,
+                                       fmt::format("{:.3g} &ndash; {:.3g}, {} runs", s.min, s.max, s.runs))
+                      : sortedCell({}, fmt::format("<span class='bad'>{}</span>", nameOf(row.status))) +
+                            sortedCell({}, escapedHtml(row.why));
     out +=
         numberCell(s.runs > 0 ? std::optional(spreadOf(row.setup_seconds).median) : std::nullopt, "{:.3g}");
     const auto error = [&](auto&& part) {
@@ -88,7 +77,7 @@ std::string tableRow(const Row& row) {
     out += numberCell(error([](const Errors& e) { return e.rmse; }), "{:.3e}");
     out += numberCell(row.error ? row.error->edge_rmse : std::nullopt, "{:.3e}");
     out += numberCell(error([](const Errors& e) { return e.max; }), "{:.3e}");
-    out += cell(error([](const Errors& e) { return e.bias; }), biasText(row));
+    out += sortedCell(error([](const Errors& e) { return e.bias; }), biasText(row));
     out += numberCell(row.error ? row.error->psnr : std::nullopt, "{:.2f}");
     out += numberCell(error([](const Errors& e) { return e.ssim; }), "{:.6f}");
     out += numberCell(error([](const Errors& e) { return e.flip; }), "{:.5f}");

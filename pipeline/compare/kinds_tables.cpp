@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 
 namespace edgewise::compare {
@@ -45,9 +46,8 @@ std::vector<Line> linesOf(const Comparison& c) {
 
 std::string cell(const KindError& error) {
     const std::optional<double> psnr = error.psnr();
-    if (error.pixels == 0) return "<td data-value=''></td>";
-    return psnr ? fmt::format("<td data-value='{}'>{:.2f}</td>", *psnr, *psnr)
-                : "<td data-value='1e9'>no error</td>";
+    if (error.pixels == 0) return emptyCell();
+    return psnr ? numberCell(*psnr, "{:.2f}") : sortedCell(1e9, "no error");
 }
 
 std::string textOf(const KindError& error) {
@@ -121,10 +121,7 @@ std::string kindsTable(const Comparison& c) {
         for (const Column& column : columnsOf(*line.kinds)) rows += cell(column.error);
         rows += "</tr>\n";
     }
-    return fmt::format(
-        "<div class='card scroll'><table><thead><tr>{}</tr></thead><tbody>\n{}"
-        "</tbody></table>{}</div>\n",
-        heads, rows, ownErrorHtml(c));
+    return cardTable(heads, rows, "", ownErrorHtml(c));
 }
 
 std::string kindsText(const Comparison& c) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "pipeline/compare/raw_image.h"
-#include "pipeline/compare/scratch_file.h"
 #include "pipeline/judge/metrics.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::compare {
 namespace {
@@ -81,7 +81,7 @@ ImageBuffer MeshReferenceMaker::pictureOf(std::size_t level, const Json& filter,
     const Json reply = worker.ask({{"do", "run"}}, kWhatItTakes, progress);
     takeFacts(reply, row);
     facts_.levels[level].mesh = row.mesh.value_or(MeshReport{});
-    const ScratchFile file(scratch_, level);
+    const ScopedPath file = temporaryFile(scratch_);
     worker.ask({{"do", "save"}, {"path", file.path().string()}}, kWhatItTakes, progress);
     return readRaw(file.path());
 }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "pipeline/compare/raw_image.h"
-#include "pipeline/compare/scratch_file.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/mesh_report.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::compare {
 namespace {
@@ -39,7 +39,7 @@ class Turn {
             if (!options.pictures) return;
             ImageBuffer picture;
             {  // the file is gone before the judging, which takes its time
-                const ScratchFile file(options.scratch, index_);
+                const ScopedPath file = temporaryFile(options.scratch);
                 worker_->ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24),
                              progress);
                 picture = readRaw(file.path());
@@ -155,7 +155,7 @@ class ReferenceWorker {
     Json ask(const Json& request) { return worker_.ask(request, std::chrono::hours(24 * 365), progress_); }
     /// Of the last run or check.
     ImageBuffer picture() {
-        const ScratchFile file(scratch_, 0);
+        const ScopedPath file = temporaryFile(scratch_);
         ask({{"do", "save"}, {"path", file.path().string()}});
         return readRaw(file.path());
     }

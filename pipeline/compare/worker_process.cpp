@@ -1,6 +1,7 @@
 #include "pipeline/compare/worker_process.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <boost/asio.hpp>
 #include <boost/process.hpp>
@@ -55,9 +56,15 @@ struct WorkerProcess::State {
         return true;
     }
 
-    void stop() {
+    /// boost::process takes what it has terminated for waited for, and leaves a zombie.
+    void end() {
         std::error_code error;
-        child.terminate(error);
+        if (child.running(error)) ::kill(child.id(), SIGKILL);
+        child.wait(error);
+    }
+
+    void stop() {
+        end();
         from.close();
         context.run();  // the read that was under way
     }
@@ -73,10 +80,7 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments)
 WorkerProcess::WorkerProcess(WorkerProcess&&) noexcept = default;
 
 WorkerProcess::~WorkerProcess() {
-    if (!state_) return;
-    std::error_code error;
-    if (state_->child.running(error)) state_->child.terminate(error);
-    state_->child.wait(error);
+    if (state_) state_->end();
 }
 
 nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::duration<double> at_most,

@@ -178,6 +178,7 @@ struct MethodEntry {
     std::map<std::string, std::vector<std::string>>
         choices;                                     ///< parameter -> what it may be; device is added to all
     std::map<std::string, NumberRange> ranges = {};  ///< parameter -> which numbers it may be
+    std::map<std::string, std::string> host_alone = {};  ///< parameter -> what has no Vulkan form
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
     MethodResult (*run_vulkan)(const MethodSpec&,
                                const MethodInput&) = nullptr;  ///< nullptr: the CPU's alone

@@ -8,9 +8,9 @@
 
 namespace edgewise {
 
-MethodResult runNsaa(const MethodSpec&, const MethodInput& input) {
+MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input) {
     CpuStages stages;
-    return NsaaFrame(input).render(stages);
+    return NsaaFrame(input, spec.parameter("visibility", "slab") == "awj13").render(stages);
 }
 
 PixelReport pixelWeights(const MethodInput& input, int x, int y) {

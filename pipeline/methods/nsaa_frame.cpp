@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analytic/open_boundaries.h"
 #include "pipeline/blend.h"
 #include "pipeline/composite.h"
 #include "pipeline/gather.h"
@@ -35,7 +36,7 @@ std::string nameOf(const PixelBox& band, const PixelBox& crop) {
     return fmt::format("weights to row {} of {}", band.y1 - crop.y0, crop.height());
 }
 
-NsaaFrame::NsaaFrame(const MethodInput& input)
+NsaaFrame::NsaaFrame(const MethodInput& input, bool by_edges)
     : in(input),
       screen(project(in.scene, in.camera, in.film, pieces, in.progress)),
       shading(in.scene, in.camera, in.film, screen, pieces),
@@ -47,6 +48,7 @@ NsaaFrame::NsaaFrame(const MethodInput& input)
     in.progress.stage("plan", 0);
     plan = makePlan(in.scene, screen, pieces, shading, in.options);
     plan.visibility.film_offset_px = offset();
+    if (by_edges) planByEdges(screen, plan);
     watch.book("plan", result.stages);
     dump.screen(screen);
     dump.plan(plan.entries);
@@ -105,6 +107,10 @@ VisibleMap NsaaFrame::visibleMapOf(NsaaStages& stages, const PixelBox& box) {
     VisibleMap map = stages.visibleMap(*this, grid);
     counts["segments"] += map.segments.size();
     counts["stacks"] += map.stacks.size();
+    if (plan.visibility.cell.by_edges) {
+        open_boundaries_ += openBoundaries(map, grid.px);
+        watch.book("check", result.stages);
+    }
     return map;
 }
 
@@ -239,6 +245,12 @@ void NsaaFrame::fillCounts(std::size_t bands) {
     counts["depth_lines"] = visibility_counts.depth_lines;
     counts["exact_depths"] = visibility_counts.exact_depth;
     counts["hidden_pairs"] = visibility_counts.hidden;
+    if (plan.visibility.cell.by_edges) counts["open_boundaries"] = open_boundaries_;
+    if (open_boundaries_ > 0)
+        result.notes.push_back(fmt::format(
+            "visibility=awj13 left {} boundaries of owners open: triangles pierce others, or touch "
+            "them where they share no vertices",
+            open_boundaries_));
     result.counts = counts;
     reportAovs(aov, result);
 }

@@ -58,7 +58,7 @@ class NsaaStages {
 /// One picture. Members are for the stages.
 class NsaaFrame {
   public:
-    explicit NsaaFrame(const MethodInput& in);
+    explicit NsaaFrame(const MethodInput& in, bool by_edges = false);
 
     MethodResult render(NsaaStages& stages);
     PixelReport report(NsaaStages& stages, int x, int y);
@@ -114,6 +114,7 @@ class NsaaFrame {
     void fillCounts(std::size_t bands);
 
     Shade background_;
+    std::size_t open_boundaries_ = 0;
     std::optional<IdLists> crop_lists_;  ///< what the bands were cut by, until a band is the whole crop
     mutable tbb::enumerable_thread_specific<Shading::Memo> memos_;
     tbb::enumerable_thread_specific<TileShades> tile_shades_;

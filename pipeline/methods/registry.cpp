@@ -207,7 +207,8 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .needs_triangles = true,
-         .choices = {{"visibility", {"slab"}}},
+         .choices = {{"visibility", {"slab", "awj13"}}},
+         .host_alone = {{"visibility", "awj13"}},
          .run = runNsaa,
          .run_vulkan = kNsaaVulkan},
         {.name = "ssaa",
@@ -334,7 +335,10 @@ bool takesFilter(const MethodSpec& spec) {
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
     const auto own = spec.parameters.find("device");
     const DeviceChoice choice = own == spec.parameters.end() ? options.device : deviceChoice(own->second);
-    return decideDevice(choice, requireMethod(spec.typed, spec.name).run_vulkan != nullptr);
+    const MethodEntry& entry = requireMethod(spec.typed, spec.name);
+    const bool on_host = std::ranges::any_of(
+        entry.host_alone, [&](const auto& alone) { return spec.parameter(alone.first, "") == alone.second; });
+    return decideDevice(choice, entry.run_vulkan != nullptr && !on_host);
 }
 
 MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input,

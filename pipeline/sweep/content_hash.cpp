@@ -8,6 +8,7 @@
 
 #include "pipeline/gltf_document.h"
 #include "pipeline/gltf_files.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise::sweep {
 namespace {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/compare/comparison_tables.h"
 #include "pipeline/error.h"
+#include "pipeline/read_file.h"
 #include "pipeline/sweep/content_hash.h"
 
 namespace edgewise::sweep {
@@ -91,11 +90,7 @@ fs::path recordPath(const fs::path& folder, const std::string& hash) {
 }
 
 JobRecord readRecord(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw InputError(path.string(), "cannot be read");
-    JobRecord record = recordFromText(text.str(), path.string());
+    JobRecord record = recordFromText(readText(path), path.string());
     if (record.hash() != path.stem())
         throw InputError(path.string(), fmt::format("holds the job {}, not that of its name", record.hash()));
     return record;

@@ -4,11 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <toml++/toml.h>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "pipeline/error.h"
+#include "pipeline/read_file.h"
 
 namespace edgewise::sweep {
 namespace {
@@ -203,17 +202,6 @@ class Reader {
     StudyFile study_;
 };
 
-std::string textOfFile(const std::string& path) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw InputError(path, "no such file");
-    if (!std::filesystem::is_regular_file(path, error)) throw InputError(path, "is not a file");
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw InputError(path, "cannot be read");
-    return text.str();
-}
-
 }  // namespace
 
 const std::vector<Entry>& StudyFile::list(const std::string& key) const {
@@ -233,7 +221,7 @@ int StudyFile::lineOf(const std::string& key) const {
 }
 
 StudyFile readStudyFile(const std::string& path, StudyProblems& problems) {
-    const std::string text = textOfFile(path);
+    const std::string text = readText(path);
     try {
         return Reader(problems).read(toml::parse(text, path));
     } catch (const toml::parse_error& error) {

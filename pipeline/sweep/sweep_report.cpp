@@ -7,6 +7,7 @@
 #include "pipeline/compare/comparison_report.h"
 #include "pipeline/compare/pareto_plot.h"
 #include "pipeline/compare/report_page.h"
+#include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
 #include "pipeline/version.h"
 
@@ -34,10 +35,11 @@ std::string plotOf(const JobRecord& job, const Measurement& m) {
 std::string rowsOf(const JobRecord& job, const Measurement& m) {
     std::string out;
     for (const compare::Row& row : m.rows)
-        out += fmt::format("<tr><td>{}</td><td>{}</td><td data-value='{}'>{}x{}</td>{}</tr>\n",
+        out += fmt::format("<tr><td>{}</td><td>{}</td>{}{}</tr>\n",
                            escapedHtml(job.job.at("scene").get<std::string>()),
                            escapedHtml(job.job.at("camera").get<std::string>()),
-                           static_cast<double>(row.size.x) * row.size.y, row.size.x, row.size.y,
+                           sortedCell(static_cast<double>(row.size.x) * row.size.y,
+                                      fmt::format("{}x{}", row.size.x, row.size.y)),
                            compare::reportCells(row));
     return out;
 }
@@ -55,11 +57,10 @@ std::map<std::string, Part> partsOf(const SweepResults& results) {
 }
 
 std::string partHtml(const Part& part) {
-    return fmt::format(
-        "<h2>{}</h2><div class='plots'>{}</div>\n<p></p><div class='card scroll'><table "
-        "class='jobs'><thead><tr>"
-        "<th>scene</th><th>camera</th><th>size</th>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-        escapedHtml(part.title), part.plots, compare::reportHeads(), part.rows);
+    return fmt::format("<h2>{}</h2><div class='plots'>{}</div>\n<p></p>", escapedHtml(part.title),
+                       part.plots) +
+           cardTable("<th>scene</th><th>camera</th><th>size</th>" + compare::reportHeads(), part.rows,
+                     "jobs");
 }
 
 std::string disagreementsHtml(const SweepResults& results) {

@@ -25,22 +25,6 @@ EDGEWISE_FN bool separates(EDGEWISE_IN(ScreenTriangle) s, EDGEWISE_IN(ScreenTria
     return false;
 }
 
-/// A sign of p - q over the vertices of t: bit 0 where it may be positive, bit 1 where it may be negative.
-/// Roundings beyond the leaf's own bound: the vertex may lie far outside the cell.
-EDGEWISE_FN int signsAtVertices(EDGEWISE_IN(ScreenTriangle) t, EDGEWISE_IN(LocalPlane) p, EDGEWISE_IN(LocalPlane) q,
-                                dvec2 origin) {
-    int signs = 0;
-    for (int k = 0; k < 3; ++k) {
-        dvec2 v = t.p_px[k] - origin;
-        double d = depthAt(p, v.x, v.y) - depthAt(q, v.x, v.y);
-        double far = (abs(p.a) + abs(q.a)) * abs(v.x) + (abs(p.b) + abs(q.b)) * abs(v.y);
-        double error = p.error + q.error + EDGEWISE_REAL(8.881784197001252e-16) * far;
-        if (d > -error) signs |= 1;
-        if (d < error) signs |= 2;
-    }
-    return signs;
-}
-
 /// cross(e, p - a) for each edge of t, the smallest, with the bound of its rounding.
 struct InnerDistance {
     double value;

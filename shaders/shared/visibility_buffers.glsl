@@ -9,6 +9,7 @@
 #include "shared/cell_clip.glsl"
 #include "shared/local_plane.glsl"
 #include "shared/triangle_pair.glsl"
+#include "shared/common_part.glsl"
 #include "shared/cell_overlap.glsl"
 
 layout(std430, binding = kVisTriangles) readonly buffer Triangles { GpuTriangle triangles[]; };

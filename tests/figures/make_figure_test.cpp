@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "paper_figures/claims_table.h"
-#include "paper_figures/temporary_folder.h"
 #include "pipeline/error.h"
+#include "pipeline/scoped_path.h"
 
 namespace edgewise::figures {
 namespace {
@@ -48,7 +48,7 @@ class MakeFigure : public testing::Test {
         return makeFigure(figure, source, folder_.path(), quiet_);
     }
     void SetUp() override { calls = 0; }
-    TemporaryFolder folder_;
+    const ScopedPath folder_ = temporaryFolder();
     Progress quiet_;
 };
 
@@ -94,7 +94,7 @@ TEST_F(MakeFigure, IsMadeAgainWhereAFileIsNotWhatItWas) {
 }
 
 TEST_F(MakeFigure, StampsNameNoFilesElsewhere) {
-    TemporaryFolder other;
+    const ScopedPath other = temporaryFolder();
     write(other.path() / "precious", "x");
     const FigureStamp stamp =
         stampOf({"p", true}, 1.0, {{"../" + other.path().filename().string() + "/precious", "x"}}, {});

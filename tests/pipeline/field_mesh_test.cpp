@@ -2,7 +2,6 @@
 #include "pipeline/field_mesh.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "pipeline/film_footprint.h"
 #include "pipeline/judge/metrics.h"
 #include "pipeline/judge/silhouette.h"
+#include "pipeline/scoped_path.h"
 #include "tests/pipeline/field_pictures.h"
 
 namespace edgewise {
@@ -215,8 +215,7 @@ TEST(FieldMesh, DependsOnTheFilmAndNotOnItsCrop) {
 TEST(FieldMesh, AStoreGivesTheSameMeshAgain) {
     FieldPicture picture = looking(48, 48);
     picture.field->tree.root = picture.field->tree.add(Kind::kTorus, {0.7, 0.25});
-    const MeshFolder folder(std::filesystem::temp_directory_path() /
-                            ("edgewise_meshes_" + std::to_string(::getpid())));
+    const ScopedPath folder = temporaryFolder();
     const MeshStore store(folder.path());
     const MethodSpec nsaa = parseMethod("nsaa");
     EXPECT_FALSE(store.find({}));
