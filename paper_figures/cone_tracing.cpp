@@ -89,11 +89,11 @@ ConeClaim costClaim(const Scenes& scenes, const Cost& cost) {
 }
 
 /// Of what ssaa:2 gains on contours of the paper's scenes, in dB.
-ConeClaim shareClaim(const Scenes& scenes, double bar) {
-    const Value gain = meanGain(scenes, "ctss", "none", EdgeKind::kContour, true),
+ConeClaim shareClaim(const Scenes& scenes, const std::string& method, double bar) {
+    const Value gain = meanGain(scenes, method, "none", EdgeKind::kContour, true),
                 of = meanGain(scenes, "ssaa:2", "none", EdgeKind::kContour, true);
     const Value share = gain && of && *of > 0.0 ? Value(100.0 * *gain / *of) : std::nullopt;
-    return {"of ssaa:2's gain on contours of the paper's scenes, ctss has",
+    return {fmt::format("of ssaa:2's gain on contours of the paper's scenes, {} has", method),
             text(share, "{:.0f} %"),
             "comparable to 4x to 8x supersampling",
             fmt::format(">= {:.0f} %", 100.0 * bar),
@@ -149,7 +149,8 @@ std::vector<ConeClaim> costClaims(const Scenes& scenes) {
 
 std::vector<ConeClaim> qualityClaims(const Scenes& scenes) {
     constexpr EdgeKind kContour = EdgeKind::kContour, kAll = EdgeKind::kNone;
-    return {shareClaim(scenes, 0.7),
+    return {shareClaim(scenes, "ctss", 0.7),
+            shareClaim(scenes, kPixelAreaCone, 0.7),
             gainClaim(scenes, {"weighted over uniform samples, contours", "ctss", "ctss:weights=uniform",
                                kContour, "smoother (Figure 5)"}),
             gainClaim(scenes, {"6x6 over 4x8 masks, contours", "ctss", "ctss:mask=4x8", kContour,

@@ -18,6 +18,10 @@ struct ConeTracingEffort {
     glm::ivec2 picture_size{320, 180};
 };
 
+/// A cone as wide as a pixel has area, sqrt(2 / pi) of the paper's, which goes through the pixel's corners:
+/// an edge is smeared over 1 px^2 and not over 1.57.
+inline constexpr const char* kPixelAreaCone = "ctss:coverage=0.8";
+
 /// Throws Interrupted when cancelled.
 ConeTracing measureConeTracing(const ConeTracingEffort& effort, Progress& progress);
 
