@@ -89,15 +89,19 @@ ScreenTriangle randomTriangle(Random& random, glm::dvec2 middle) {
     return triangleOf({through + way, through - random.unit() * way, through + aside});
 }
 
-/// Another one, or one that shares a corner or an edge, or the same moved by a few steps of the grid.
+/// Another one, or one that shares a corner or an edge, or the same moved by a few steps of the grid, or one
+/// with an edge that grazes.
 ScreenTriangle partnerOf(const ScreenTriangle& s, Random& random, glm::dvec2 middle) {
     std::array<glm::dvec2, 3> p = randomTriangle(random, middle).p_px;
-    const int kind = random.below(4);
+    const int kind = random.below(6);
     if (kind == 1 || kind == 2) p[0] = s.p_px[0];
     if (kind == 2) p[1] = s.p_px[1];
     if (kind == 3) {
         p = s.p_px;
         for (glm::dvec2& v : p) v += kGridPx * glm::dvec2(random.below(5) - 2, random.below(5) - 2);
+        if (kind >= 4)
+            for (int k = 0; k < 2; ++k)
+                p[k] = s.p_px[k] + glm::dvec2(random.sized(-32.0, -8.0), random.sized(-32.0, -8.0));
     }
     return triangleOf(p);
 }
