@@ -1,6 +1,7 @@
 #include "analytic/edge_visibility.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "analytic/exact_depth.h"
 #include "analytic/shared_edges.h"
@@ -154,7 +155,7 @@ void EdgeVisibility::emit(const Edge& edge, Owner left, Owner right, const FineP
     if (!edge.horizontal) crossings_.add(frame_, edge.line, a, b, left, right);
 }
 
-Owner EdgeVisibility::nearest(const Edge& edge, Side side, const FinePoint& a, const FinePoint& b) {
+Owner EdgeVisibility::nearest(const Edge& edge, Side side, const FinePoint& a, const FinePoint& b) const {
     const std::vector<std::uint32_t>& covers = covers_[side];
     if (covers.empty()) return kBackground;
     std::uint32_t best = covers.front();
@@ -165,7 +166,7 @@ Owner EdgeVisibility::nearest(const Edge& edge, Side side, const FinePoint& a, c
 
 /// In the middle of a part of the edge, or beside it where the two planes meet in the edge.
 bool EdgeVisibility::inFront(const Edge& edge, Side side, std::uint32_t i, std::uint32_t j,
-                             const FinePoint& a, const FinePoint& b) {
+                             const FinePoint& a, const FinePoint& b) const {
     const LocalPlane &p = planes_[i], &q = planes_[j];
     if (p.plane != q.plane && endsIn(edge, i) && endsIn(edge, j)) {
         const glm::dvec2 e = edge.line.carrier.b - edge.line.carrier.a;
@@ -173,6 +174,13 @@ bool EdgeVisibility::inFront(const Edge& edge, Side side, std::uint32_t i, std::
         const double rise = (p.a - q.a) * aside.x + (p.b - q.b) * aside.y;
         if (rise != 0.0) return rise > 0.0;
     }
+    return inFrontBetween(i, j, a, b);
+}
+
+/// In the middle between two points.
+bool EdgeVisibility::inFrontBetween(std::uint32_t i, std::uint32_t j, const FinePoint& a,
+                                    const FinePoint& b) const {
+    const LocalPlane &p = planes_[i], &q = planes_[j];
     const double x = 0.5 * (frame_.localX(a) + frame_.localX(b)),
                  y = 0.5 * (frame_.localY(yOf(a)) + frame_.localY(yOf(b)));
     if (const int order = filteredOrder(p, q, x, y); order != 0) return order > 0;
@@ -200,14 +208,13 @@ bool EdgeVisibility::endsIn(const Edge& edge, std::uint32_t place) const {
 
 /// Where no visible segment comes near.
 Owner EdgeVisibility::ownerAt(glm::dvec2 p_px) const {
-    const LocalPlane* best = nullptr;
-    const glm::dvec2 p = p_px - frame_.origin;
+    const FinePoint p = gridPoint(p_px);
+    std::optional<std::uint32_t> best;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         if (sideOfTriangle(triangle(i), p_px) < 0) continue;
-        const LocalPlane& plane = planes_[i];
-        if (!best || filteredOrder(plane, *best, p.x, p.y) > 0) best = &plane;
+        if (!best || inFrontBetween(i, *best, p, p)) best = i;
     }
-    return best ? best->owner : kBackground;
+    return best ? triangle(*best).owner : kBackground;
 }
 
 }  // namespace edgewise

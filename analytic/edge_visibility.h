@@ -20,7 +20,8 @@ namespace edgewise {
 class EdgeVisibility {
   public:
     /// The owners of `cell` among `triangles` (indices into scene.triangles, all opaque), appended to `out`.
-    /// `origin`: a grid point near the cell, the frame of its arithmetic. O(edges triangles log triangles).
+    /// `origin`: a grid point near the cell, the frame of its arithmetic. O(triangles^3), of the few in a
+    /// leaf.
     void run(const ScreenScene& scene, const Cell& cell, glm::dvec2 origin,
              std::span<const std::uint32_t> triangles, CellOutput& out);
 
@@ -60,9 +61,10 @@ class EdgeVisibility {
     Cut cutBy(const Carrier& edge, std::uint32_t triangle, std::uint32_t k, Side side, bool enters) const;
     OrderKey keyAlong(const Edge& edge, const FinePoint& p) const;
     void walk(const Edge& edge);
-    Owner nearest(const Edge& edge, Side side, const FinePoint& a, const FinePoint& b);
+    Owner nearest(const Edge& edge, Side side, const FinePoint& a, const FinePoint& b) const;
     bool inFront(const Edge& edge, Side side, std::uint32_t p, std::uint32_t q, const FinePoint& a,
-                 const FinePoint& b);
+                 const FinePoint& b) const;
+    bool inFrontBetween(std::uint32_t p, std::uint32_t q, const FinePoint& a, const FinePoint& b) const;
     bool endsIn(const Edge& edge, std::uint32_t triangle) const;
     void emit(const Edge& edge, Owner left, Owner right, const FinePoint& a, const FinePoint& b);
     Owner ownerAt(glm::dvec2 p) const;

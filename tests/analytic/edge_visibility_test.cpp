@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "analytic/open_boundaries.h"
+#include "tests/analytic/window_around.h"
 #include "tests/witness/random_scenes.h"
 
 namespace edgewise {
@@ -80,8 +81,7 @@ Found compare(SceneKind kind, int max_triangles) {
     Found found;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
         const witness::RandomScene random = makeRandomScene(kind, seed);
-        const glm::ivec2 c = random.centre;
-        const Window window{c.x - kReachPx, c.y - kReachPx, c.x + kReachPx, c.y + kReachPx};
+        const Window window = test::windowAround(random.centre, kReachPx);
         VisibilityOptions by_edges, by_slabs;
         by_edges.max_triangles = by_slabs.max_triangles = max_triangles;
         by_edges.by_edges = true, by_edges.certify = false;
@@ -89,7 +89,8 @@ Found compare(SceneKind kind, int max_triangles) {
                          slabs = visibleMap(random.scene, window, by_slabs);
         const Window cells = cellWindow(window);
         found.same += endsOf(edges) == endsOf(slabs);
-        found.area = std::max(found.area, farthestApart(areasOf(edges, c), areasOf(slabs, c)));
+        found.area =
+            std::max(found.area, farthestApart(areasOf(edges, random.centre), areasOf(slabs, random.centre)));
         found.length =
             std::max(found.length, farthestApart(lengthsOf(edges, cells.x1), lengthsOf(slabs, cells.x1)));
         found.open_by_edges += openBoundaries(edges, cells) > 0;
@@ -131,8 +132,7 @@ TEST(EdgeVisibility, LeavesWhatPiercesOpen) {
 
 TEST(OpenBoundaries, AreFoundWhereASegmentIsMissing) {
     const witness::RandomScene random = witness::makeRandomScene(SceneKind::kClosedMesh, 1);
-    const glm::ivec2 c = random.centre;
-    const Window window{c.x - kReachPx, c.y - kReachPx, c.x + kReachPx, c.y + kReachPx};
+    const Window window = test::windowAround(random.centre, kReachPx);
     VisibleMap map = visibleMap(random.scene, window);
     ASSERT_EQ(openBoundaries(map, cellWindow(window)), 0u);
     const VisibleSegment gone = map.segments.back();

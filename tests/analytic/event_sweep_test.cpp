@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "analytic/visibility.h"
+#include "tests/analytic/window_around.h"
 #include "tests/witness/random_scenes.h"
 
 namespace edgewise {
@@ -41,8 +42,7 @@ class EventSweepTruth : public testing::TestWithParam<SceneKind> {
         VisibilityCounts counts;
         for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
             const witness::RandomScene random = makeRandomScene(kind, seed);
-            const glm::ivec2 c = random.centre;
-            const Window window{c.x - kReachPx, c.y - kReachPx, c.x + kReachPx, c.y + kReachPx};
+            const Window window = test::windowAround(random.centre, kReachPx);
             VisibilityOptions by_events, by_slabs;
             by_events.max_triangles = by_slabs.max_triangles = max_triangles;
             by_events.certify = by_slabs.certify = false;  // all cells are swept
@@ -71,8 +71,7 @@ TEST(EventSweep, SweepsWhatIsPlainAndDeclinesWhatTouches) {
     VisibilityCounts plain, touching;
     for (const SceneKind kind : witness::allSceneKinds()) {
         const witness::RandomScene random = makeRandomScene(kind, 1);
-        const glm::ivec2 c = random.centre;
-        const Window window{c.x - kReachPx, c.y - kReachPx, c.x + kReachPx, c.y + kReachPx};
+        const Window window = test::windowAround(random.centre, kReachPx);
         const bool touches = kind == SceneKind::kTJunctions || kind == SceneKind::kAxisAligned;
         visibleMap(random.scene, window, {}, touches ? &touching : &plain);
     }
