@@ -10,7 +10,7 @@
 namespace edgewise::figures {
 namespace {
 
-constexpr double kWidth = 760, kLeft = 170, kRight = 90, kTop = 40, kBottom = 40;
+constexpr double kWidth = 790, kLeft = 200, kRight = 90, kTop = 40, kBottom = 40;
 constexpr double kInnerWidth = kWidth - kLeft - kRight;
 constexpr double kBarStep = 28, kBarHeight = 20;
 constexpr double kLegendStep = 96;
