@@ -49,8 +49,7 @@ struct RowLayout {
 
 class Emitter {
   public:
-    Emitter(const Tape& tape, std::uint32_t least_batch)
-        : tape_(tape), batches_(findBatches(tape, least_batch)) {
+    Emitter(const Tape& tape, const BatchRule& rule) : tape_(tape), batches_(findBatches(tape, rule)) {
         for (const TapeBatch& batch : batches_) layOut(batch);
     }
 
@@ -61,7 +60,7 @@ class Emitter {
         field_.functions.assign(used.begin(), used.end());
         field_.text = sharedFunctions(used);
         if (!batches_.empty())
-            field_.text += "float ew_number(uint at) { return uintBitsToFloat(ew_table[at]); }\n";
+            field_.text += "float ew_number(uint word) { return uintBitsToFloat(word); }\n";
         field_.text += "float fieldAt(vec3 p) {\n" + body(Purpose::kValue) + "    return v0;\n}\n";
         field_.text += "uint winnerAt(vec3 p, out vec3 p_local) {\n" + body(Purpose::kWinner) +
                        "    p_local = q0;\n    return m0;\n}\n";
@@ -103,7 +102,7 @@ class Emitter {
         made.fold = pair.code;
         if (codeInfo(pair.code).numberCount() > 0) made.blend = tape_.numbers[pair.numbers];
         made.rows = static_cast<std::uint32_t>(batch.rows);
-        made.first_word = static_cast<std::uint32_t>(field_.table.size());
+        made.first = static_cast<std::uint32_t>(field_.table.size());
         made.instructions = static_cast<std::uint32_t>(batch.length);
         made.prunable = true;
         made.lipschitz = 0.0;
@@ -115,26 +114,34 @@ class Emitter {
                 layout.own_material ||
                 tape_.instructions[at].material !=
                     tape_.instructions[batch.first + (at - batch.first) % batch.length].material;
-        made.stride = static_cast<std::uint32_t>(layout.columns + (layout.own_material ? shapes : 0));
+        const std::size_t words = layout.columns + (layout.own_material ? shapes : 0);
+        made.stride = static_cast<std::uint32_t>((words + 3) / 4);
         for (std::size_t row = 0; row < batch.rows; ++row) addRow(batch, layout, row, made);
         field_.batches.push_back(made);
     }
 
     void addRow(const TapeBatch& batch, const RowLayout& layout, std::size_t row, GlslBatch& made) {
-        std::vector<std::uint32_t> materials;
+        std::vector<std::uint32_t> words, materials;
         std::size_t n = 0;
         for (std::size_t k = 0; k < batch.length; ++k) {
             const std::size_t at = batch.first + row * batch.length + k;
             for (int j = 0; j < numbersOf(at); ++j, ++n)
                 if (layout.column[n] >= 0)
-                    field_.table.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(number(at, j))));
+                    words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(number(at, j))));
             const Instruction& i = tape_.instructions[at];
             if (layout.own_material && codeInfo(i.code).form == CodeForm::kShape)
                 materials.push_back(i.material);
             if (k + 1 < batch.length && codeInfo(i.code).form != CodeForm::kMove)
                 made.lipschitz = std::max(made.lipschitz, i.lipschitz);
         }
-        field_.table.insert(field_.table.end(), materials.begin(), materials.end());
+        words.insert(words.end(), materials.begin(), materials.end());
+        words.resize(std::size_t{made.stride} * 4);
+        for (std::size_t at = 0; at < words.size(); at += 4)
+            field_.table.push_back({words[at], words[at + 1], words[at + 2], words[at + 3]});
+    }
+
+    static std::string wordText(int column) {
+        return fmt::format("ew_table[ew_at + {}u].{}", column / 4, "xyzw"[column % 4]);
     }
 
     std::string body(Purpose purpose) const {
@@ -218,7 +225,7 @@ class Emitter {
             "    ew_turns += ew_range[{0}].y - ew_range[{0}].x;\n"
             "    for (uint ew_i = ew_range[{0}].x; ew_i < ew_range[{0}].y; ++ew_i) {{\n"
             "    uint ew_row = ew_items[ew_i], ew_at = {1}u + {2}u * ew_row;\n",
-            index, made.first_word, made.stride);
+            index, made.first, made.stride);
         std::size_t first_number = 0;
         int shape = 0;
         for (std::size_t k = 0; k < batch.length; ++k) {
@@ -226,12 +233,11 @@ class Emitter {
             const NumberText numbers = [&, at, first_number](std::size_t n) {
                 const int column = layout.column[first_number + n];
                 return column < 0 ? glslNumber(number(at, static_cast<int>(n)))
-                                  : fmt::format("ew_number(ew_at + {}u)", column);
+                                  : fmt::format("ew_number({})", wordText(column));
             };
             const bool is_shape = codeInfo(tape_.instructions[at].code).form == CodeForm::kShape;
-            const std::string material = layout.own_material && is_shape
-                                             ? fmt::format("ew_table[ew_at + {}u]", layout.columns + shape)
-                                             : materialText(at);
+            const std::string material =
+                layout.own_material && is_shape ? wordText(layout.columns + shape) : materialText(at);
             shape += is_shape;
             if (purpose == Purpose::kLists && k + 1 == batch.length) text += ballRow(made, index, to);
             text += line(at, purpose, numbers, material);
@@ -304,8 +310,8 @@ std::uint32_t GlslField::rows() const {
     return sum;
 }
 
-GlslField glslText(const Tape& tape, std::uint32_t least_batch) {
-    GlslField field = Emitter(tape, least_batch).run();
+GlslField glslText(const Tape& tape, const BatchRule& rule) {
+    GlslField field = Emitter(tape, rule).run();
     if (!field.batches.empty()) field.prune_text = slackText(tape) + field.prune_text;
     return field;
 }

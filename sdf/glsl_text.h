@@ -1,11 +1,13 @@
 // GLSL from a tape: straight-line code that holds only what the tape uses.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "sdf/tape.h"
+#include "sdf/tape_batches.h"
 
 namespace edgewise::sdf {
 
@@ -14,8 +16,8 @@ struct GlslBatch {
     Code fold = Code::unite;
     double blend = 0.0;              ///< the smooth folds' number
     std::uint32_t rows = 0;          ///< children: all but the fold's first
-    std::uint32_t first_word = 0;    ///< of row 0 in GlslField::table
-    std::uint32_t stride = 0;        ///< words a row
+    std::uint32_t first = 0;         ///< of row 0 in GlslField::table
+    std::uint32_t stride = 0;        ///< of rows there
     std::uint32_t instructions = 0;  ///< a row
     double lipschitz = 1.0;          ///< of every row's value
     bool prunable = false;           ///< the fold forgets what is far from its value
@@ -23,7 +25,7 @@ struct GlslBatch {
 
 struct GlslField {
     /// Functions. What they need is declared before them:
-    ///     uint ew_table[]      `table`, where there are batches
+    ///     uvec4 ew_table[]     `table`, where there are batches
     ///     uint ew_items[]      lists of rows
     ///     uvec2 ew_range[]     by batch: which part of ew_items to fold
     ///     uint ew_turns        grows by the turns of loops
@@ -37,16 +39,14 @@ struct GlslField {
     /// not.
     ///     float listsFor(vec3 p, float radius)      the value at p
     std::string prune_text;
-    std::vector<std::uint32_t> table;  ///< bits of floats and, last in a row, of its material
+    /// By fours: a row's numbers as bits of floats, then its materials, then zeros.
+    std::vector<std::array<std::uint32_t, 4>> table;
     std::vector<GlslBatch> batches;
     std::vector<std::string> functions;  ///< of the shared text that tapes call, sorted
     std::uint32_t rows() const;          ///< of all batches: turns of an evaluation's loops
 };
 
-/// Folds of fewer children stay straight-line.
-inline constexpr std::uint32_t kLeastBatch = 16;
-
-GlslField glslText(const Tape& tape, std::uint32_t least_batch = kLeastBatch);
+GlslField glslText(const Tape& tape, const BatchRule& rule = {});
 
 /// A float's literal that reads back exactly.
 std::string glslNumber(double number);

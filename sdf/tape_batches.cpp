@@ -37,7 +37,7 @@ bool alike(const Tape& tape, std::size_t a, std::size_t b, std::size_t length) {
 
 }  // namespace
 
-std::vector<TapeBatch> findBatches(const Tape& tape, std::size_t least_rows) {
+std::vector<TapeBatch> findBatches(const Tape& tape, const BatchRule& rule) {
     std::vector<TapeBatch> found;
     for (std::size_t i = 0; i < tape.size(); ++i) {
         if (formOf(tape.instructions[i]) != CodeForm::kPair) continue;
@@ -50,7 +50,9 @@ std::vector<TapeBatch> findBatches(const Tape& tape, std::size_t least_rows) {
             found.push_back({begin, length, 1});
         }
     }
-    std::erase_if(found, [&](const TapeBatch& b) { return b.rows < least_rows; });
+    std::erase_if(found, [&](const TapeBatch& b) {
+        return b.rows < rule.least_rows || b.rows * b.length < rule.least_instructions;
+    });
     std::ranges::sort(found, [](const TapeBatch& a, const TapeBatch& b) {
         return a.first != b.first ? a.first < b.first : a.end() > b.end();
     });

@@ -14,7 +14,13 @@ struct TapeBatch {
     std::size_t end() const { return first + length * rows; }
 };
 
+/// Smaller runs stay straight-line.
+struct BatchRule {
+    std::size_t least_rows = 16;
+    std::size_t least_instructions = 0;  ///< of all rows together
+};
+
 /// In the tape's order; none lies within another: the outer ones win.
-std::vector<TapeBatch> findBatches(const Tape& tape, std::size_t least_rows);
+std::vector<TapeBatch> findBatches(const Tape& tape, const BatchRule& rule);
 
 }  // namespace edgewise::sdf

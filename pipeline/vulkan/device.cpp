@@ -86,6 +86,7 @@ DeviceTraits traitsOf(const vk::raii::PhysicalDevice& device) {
     traits.max_stage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
     traits.max_shared_bytes = properties.limits.maxComputeSharedMemorySize;
     traits.max_storage_bytes = properties.limits.maxStorageBufferRange;
+    traits.max_uniform_bytes = properties.limits.maxUniformBufferRange;
     traits.max_heap_bytes = largestLocalHeap(device.getMemoryProperties());
     if (const auto family = queueFamilyOf(device);
         family && device.getQueueFamilyProperties()[*family].timestampValidBits > 0)

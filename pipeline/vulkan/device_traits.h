@@ -19,6 +19,7 @@ struct DeviceTraits {
     std::uint32_t max_target_px = 0;      ///< a side of what passes rasterize on
     std::uint32_t max_stage_buffers = 0;  ///< storage buffers that one shader may bind
     std::size_t max_storage_bytes = 0;    ///< of one storage buffer's binding
+    std::size_t max_uniform_bytes = 0;    ///< of one uniform buffer's binding
     std::size_t max_shared_bytes = 0;     ///< of a workgroup
     std::size_t max_heap_bytes = 0;       ///< of the largest device-local heap
     /// Turns that the loops of the invocations which run together may take in all: lavapipe stops them then,

@@ -136,7 +136,19 @@ struct FieldTexts {
     }
 };
 
-FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width, int height) {
+std::string tableText(const FieldShaders& made) {
+    return made.uniform_table ? fmt::format(
+                                    "#define EW_TABLE_BLOCK layout(std140, binding = {}) uniform\n"
+                                    "#define EW_TABLE_LENGTH {}\n",
+                                    kFieldTableBinding, made.field.table.size())
+                              : fmt::format(
+                                    "#define EW_TABLE_BLOCK layout(std430, binding = {}) readonly buffer\n"
+                                    "#define EW_TABLE_LENGTH\n",
+                                    kFieldTableBinding);
+}
+
+FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width, int height,
+                   const FieldTextRules& rules) {
     FieldTexts texts;
     FieldShaders& made = texts.made;
     if (scene.glsl) {
@@ -146,12 +158,14 @@ FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& setti
         texts.user = std::move(user.text);
     } else {
         const sdf::Tape tape = lower(scene.tree);
-        made.field = sdf::glslText(tape);
+        made.field = sdf::glslText(tape, rules.batches);
         made.lipschitz = tape.lipschitz;
     }
+    const std::size_t table_bytes = made.field.table.size() * sizeof made.field.table.front();
+    made.uniform_table = table_bytes > 0 && table_bytes <= rules.uniform_bytes;
     const bool batches = !made.field.batches.empty();
     std::string& head = texts.head;
-    head = "#version 460\n" + numbersText(settings, made);
+    head = "#version 460\n" + numbersText(settings, made) + tableText(made);
     head += kField_header;
     if (batches) head += batchesText(made) + std::string(kField_lists);
     head += batches ? "#define EW_ROWS_AT(tile, t) ew_rowsAt(tile, t)\n#define EW_ALL_ROWS ew_allRows()\n"
@@ -174,11 +188,24 @@ FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& setti
     return texts;
 }
 
+/// A CPU's compiler takes seconds for a thousand instructions of straight-line code, once, and runs it twenty
+/// times as fast as rows of a table that differ between invocations.
+constexpr std::size_t kStraightInstructions = 513;
+
 }  // namespace
 
+FieldTextRules textRulesFor(const DeviceTraits& traits) {
+    if (traits.real_gpu) return {};
+    // lavapipe reads a storage buffer's elements one invocation after the other, a uniform buffer's in vector
+    // code; on a GPU invocations that read different rows of a uniform buffer wait for each other.
+    return {.batches = {.least_instructions = kStraightInstructions},
+            .uniform_bytes = traits.max_uniform_bytes};
+}
+
 FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSettings& settings, int width,
-                              int height, bool prune, const sdf::ConeSettings* cones) {
-    FieldTexts texts = textsOf(scene, settings, width, height);
+                              int height, bool prune, const sdf::ConeSettings* cones,
+                              const FieldTextRules& rules) {
+    FieldTexts texts = textsOf(scene, settings, width, height, rules);
     FieldShaders& made = texts.made;
     const std::string trace_step = withOwnNames(kField_sdf_trace_step);
     made.trace = texts.compile({trace_step, kField_trace_state, kField_trace});
@@ -193,7 +220,7 @@ FieldShaders makeFieldShaders(const sdf::FieldScene& scene, const sdf::TraceSett
 }
 
 FieldShaders makePointShaders(const sdf::FieldScene& scene, int width, int height) {
-    FieldTexts texts = textsOf(scene, {}, width, height);
+    FieldTexts texts = textsOf(scene, {}, width, height, {});
     texts.made.points = texts.compile({kField_points});
     return std::move(texts.made);
 }

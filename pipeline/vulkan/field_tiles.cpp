@@ -71,7 +71,8 @@ GpuCone coneOf(std::span<const GpuRay> rays, float reach) {
 }
 
 Buffer tableOf(const Device& device, const sdf::GlslField& field) {
-    return bufferOf(device, "field table", field.table.empty() ? std::vector<std::uint32_t>{0} : field.table);
+    return field.table.empty() ? bufferOf(device, "field table", std::vector<std::uint32_t>{0})
+                               : bufferOf(device, "field table", field.table);
 }
 
 std::vector<std::uint32_t> everyRow(const sdf::GlslField& field) {
@@ -133,7 +134,8 @@ FieldTiles::FieldTiles(const Device& device, const FieldShaders& shaders, bool p
 }
 
 ComputePass FieldTiles::pass(const char* name, const std::vector<std::uint32_t>& code) const {
-    return {device_, ShaderCode(name, code), kBuffers, sizeof(Push)};
+    const auto uniform = shaders_.uniform_table ? std::optional<int>(kFieldTableBinding) : std::nullopt;
+    return {device_, ShaderCode(name, code), BufferSlots(kBuffers, uniform), sizeof(Push)};
 }
 
 std::size_t FieldTiles::most(const Device& device, const FieldShaders& shaders, std::size_t bytes,

@@ -108,7 +108,7 @@ class VulkanFieldTracer : public FieldTracer {
     void makeRays() {
         const bool prune = settings_.prune && !input_.options.keeps("empty");
         shaders_ = makeFieldShaders(scene_, settings_, input_.film.width, input_.film.height, prune,
-                                    cones_ ? &*cones_ : nullptr);
+                                    cones_ ? &*cones_ : nullptr, textRulesFor(device_->traits()));
         tiles_.emplace(*device_, shaders_, settings_.prepass, prune);
         rays_.emplace(*device_, shaders_, settings_, *tiles_);
         // A sixteenth of --memory for the device's buffers, several times that for the host's rays and hits;
@@ -230,7 +230,8 @@ class VulkanFieldTracer : public FieldTracer {
         if (!rays_) return "the scene has no field";
         if (!scene_.bound_holds) return kBoundBroken;
         if (!settings_.prune || input_.options.keeps("empty")) return "switched off";
-        if (shaders_.prune.empty()) return "no fold of many like children: the shader is straight-line";
+        if (shaders_.prune.empty())
+            return "no fold has so many like children that a loop pays: the shader is straight-line";
         const FieldCounts& counts = tiles_->counts();
         const double lists = static_cast<double>(std::max<std::uint64_t>(counts.lists, 1));
         return fmt::format("of {} like children {:.1f} count in a segment of a tile's depth, by {} lists",
@@ -241,7 +242,7 @@ class VulkanFieldTracer : public FieldTracer {
     }
     std::string tableWords() const {
         const auto& batches = shaders_.field.batches;
-        if (batches.empty()) return "no fold has many like children";
+        if (batches.empty()) return "no fold has so many like children that a loop pays";
         std::string words;
         for (const sdf::GlslBatch& batch : batches)
             words += fmt::format("{}{}", words.empty() ? "" : ", ", batch.rows);

@@ -20,7 +20,7 @@ struct EwTile { float begin, list_begin, list_end; uint evaluations; };
 layout(std430, binding = 0) readonly buffer EwRays { EwRay ew_rays[]; };
 layout(std430, binding = 3) readonly buffer EwCones { EwCone ew_cones[]; };
 layout(std430, binding = 4) buffer EwTiles { EwTile ew_tiles[]; };
-layout(std430, binding = 5) readonly buffer EwTable { uint ew_table[]; };
+EW_TABLE_BLOCK EwTable { uvec4 ew_table[EW_TABLE_LENGTH]; };
 layout(std430, binding = 6) buffer EwItems { uint ew_items[]; };
 /// 0: a value that is no number: 1; its position in 1 to 3; 4: a user's loop without end: its line; 5: active rays; 6: rays
 /// without room for more.

@@ -68,12 +68,15 @@ TEST(GlslText, LikeChildrenAreALoopOverATable) {
     const GlslField field = glslText(lower(manySpheres(40)));
     ASSERT_EQ(field.batches.size(), 1u);
     EXPECT_EQ(field.batches[0].rows, 39u);   // the first child begins the fold
-    EXPECT_EQ(field.batches[0].stride, 3u);  // x, radius, material: y and z are alike
-    EXPECT_EQ(field.table.size(), 39u * 3u);
-    EXPECT_EQ(field.table[2], 1u);
+    EXPECT_EQ(field.batches[0].stride, 1u);  // x, radius, material: y and z are alike
+    EXPECT_EQ(field.table.size(), 39u);
+    EXPECT_EQ(field.table[0][2], 1u);
     EXPECT_EQ(field.rows(), 39u);
     EXPECT_TRUE(holds(field.text, "0.25, 0.0)"));
     EXPECT_TRUE(glslText(lower(manySpheres(16))).batches.empty());
+    // A child is three instructions.
+    EXPECT_TRUE(glslText(lower(manySpheres(40)), {.least_instructions = 118}).batches.empty());
+    EXPECT_EQ(glslText(lower(manySpheres(40)), {.least_instructions = 117}).batches.size(), 1u);
 }
 
 TEST(GlslText, ChildrenThatDifferInMoreThanNumbersAreNoBatch) {

@@ -39,15 +39,20 @@ std::vector<std::uint32_t> allRows(const sdf::GlslField& field, std::string& ran
     return items;
 }
 
-std::vector<Answer> evaluate(const sdf::GlslField& field, const std::vector<glm::vec3>& points) {
+std::vector<Answer> evaluate(const sdf::GlslField& field, const std::vector<glm::vec3>& points,
+                             bool uniform_table = false) {
     std::string ranges;
-    std::vector<std::uint32_t> items = allRows(field, ranges), table = field.table;
-    if (items.empty()) ranges.clear(), items.push_back(0), table.push_back(0);
+    std::vector<std::uint32_t> items = allRows(field, ranges);
+    auto table = field.table;
+    if (items.empty()) ranges.clear(), items.push_back(0), table.push_back({});
     const std::string text =
-        "#version 460\nlayout(local_size_x = 64) in;\n"
-        "layout(std430, binding = 0) readonly buffer A { float points[]; };\n"
-        "layout(std430, binding = 1) writeonly buffer B { uint answers[]; };\n"
-        "layout(std430, binding = 2) readonly buffer C { uint ew_table[]; };\n"
+        std::string(
+            "#version 460\nlayout(local_size_x = 64) in;\n"
+            "layout(std430, binding = 0) readonly buffer A { float points[]; };\n"
+            "layout(std430, binding = 1) writeonly buffer B { uint answers[]; };\n") +
+        (uniform_table
+             ? fmt::format("layout(std140, binding = 2) uniform C {{ uvec4 ew_table[{}]; }};\n", table.size())
+             : "layout(std430, binding = 2) readonly buffer C { uvec4 ew_table[]; };\n") +
         "layout(std430, binding = 3) readonly buffer D { uint ew_items[]; };\n"
         "layout(push_constant) uniform P { uint count; };\nuint ew_turns = 0;\n" +
         ranges + field.text +
@@ -58,7 +63,8 @@ std::vector<Answer> evaluate(const sdf::GlslField& field, const std::vector<glm:
         "    for (int k = 0; k < 3; ++k) answers[5 * i + 2 + k] = floatBitsToUint(q[k]);\n}\n";
     const Device& device = test::device();
     const std::vector<std::uint32_t> words = compileGlsl(text);
-    ComputePass pass(device, {"field", words}, 4, 4);
+    ComputePass pass(device, {"field", words},
+                     BufferSlots(4, uniform_table ? std::optional<int>(2) : std::nullopt), 4);
     const Buffer in = bufferOf(device, "points", points), rows = bufferOf(device, "items", items),
                  numbers = bufferOf(device, "table", table);
     PassGraph graph(device);
@@ -147,12 +153,14 @@ TEST_F(GlslOnDevice, LoopsHaveTheBitsOfStraightLines) {
         const std::vector<glm::vec3> points = randomPoints(random, 1000);
         const sdf::GlslField looped = glslText(tape);
         ASSERT_EQ(looped.batches.size(), 1u);
-        const std::vector<Answer> loop = evaluate(looped, points),
-                                  line = evaluate(glslText(tape, 1000), points);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            ASSERT_EQ(loop[i].value, line[i].value);
-            ASSERT_EQ(loop[i].material, line[i].material);
-            ASSERT_TRUE(std::equal(loop[i].local, loop[i].local + 3, line[i].local));
+        const std::vector<Answer> line = evaluate(glslText(tape, {.least_rows = 1000}), points);
+        for (const bool uniform_table : {false, true}) {
+            const std::vector<Answer> loop = evaluate(looped, points, uniform_table);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                ASSERT_EQ(loop[i].value, line[i].value);
+                ASSERT_EQ(loop[i].material, line[i].material);
+                ASSERT_TRUE(std::equal(loop[i].local, loop[i].local + 3, line[i].local));
+            }
         }
     }
 }
