@@ -13,7 +13,7 @@ struct ConeTracingEffort {
     glm::ivec2 size{320, 180};        ///< of what is judged
     glm::ivec2 timed_size{640, 360};  ///< of what is timed for the aims; 0: nothing more is timed
     int runs = 3;
-    double budget_seconds = 600.0;  ///< a method and scene
+    double budget_seconds = 120.0;  ///< a method and scene
     int reference_side = 16;        ///< samples a pixel along each axis
     glm::ivec2 picture_size{320, 180};
 };
