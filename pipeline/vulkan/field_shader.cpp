@@ -177,9 +177,7 @@ FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& setti
     head += made.user_albedo ? "vec3 albedo(vec3 p, vec3 n);\n"
                                "vec3 ew_albedoAt(vec3 p, vec3 n) {\n"
                                "    ew_user_turns = 0u;\n"
-                               "    vec3 color = albedo(p, n);\n"
-                               "    if (ew_stuck_line != 0u) ew_flags[4] = ew_stuck_line;\n"
-                               "    return color;\n"
+                               "    return albedo(p, n);\n"
                                "}\n"
                                "#define EW_ALBEDO(p, n) ew_albedoAt(p, n)\n"
                              : "#define EW_ALBEDO(p, n) vec3(0.0)\n";

@@ -29,4 +29,5 @@ void main() {
     tile.begin = t;
     tile.list_end = open ? 1.0 : 0.0;
     ew_tiles[i] = tile;
+    ew_report();
 }

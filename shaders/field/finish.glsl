@@ -23,8 +23,11 @@ void main() {
     EwRay ray = ew_rays[i];
     ew_TraceRules rules = ew_rulesOf(ray);
     uint tile = i / 64u;
-    EwHit hit = ew_hits[i];
-    if (ew_fresh != 0u) hit = ew_hitOf(s);
+    EwHit hit;
+    if (ew_fresh != 0u)
+        hit = ew_hitOf(s);
+    else
+        hit = ew_hits[i];
     vec3 normal = vec3(hit.normal_x, hit.normal_y, hit.normal_z);
     // ew_steps: the first and the last turn of this dispatch.
     uint first = ew_steps & 0xffffu, last = ew_steps >> 16u;
@@ -58,5 +61,6 @@ void main() {
     hit.normal_y = normal.y;
     hit.normal_z = normal.z;
     ew_hits[i] = hit;
-    ew_states[i] = s;
+    if (first < ew_discontinuity) ew_states[i].evaluations = s.evaluations;
+    ew_report();
 }

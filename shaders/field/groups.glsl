@@ -52,6 +52,15 @@ EwConeState ew_packed(ew_ConeState s, bool negative, uint groups, uint evaluatio
                        evaluations);
 }
 
+/// A ray's groups until its invocation ends.
+EwGroup ew_closed[ew_room];
+void ew_close(uint place, ew_ConeState s) {
+    EwGroup made =
+        EwGroup(floatBitsToUint(ew_coneSampleAt(s)) | (s.hard ? 0x80000000u : 0u), s.entry_t, ew_coneLeast(s));
+    for (uint k = 0u; k < ew_room; ++k)
+        if (k == place) ew_closed[k] = made;
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x + ew_first;
     if (i >= ew_count) return;
@@ -70,6 +79,7 @@ void main() {
         groups = kept.how >> 8;
         if (ew_fresh == 2u && groups == ew_room && !ew_coneEnded(s)) groups = 0u;  // they are taken
     }
+    uint taken = groups;
     for (uint k = 0u; k < ew_steps && !ew_coneEnded(s) && groups < ew_room && ew_turns <= ew_most_turns && !ew_failed(); ++k) {
         float t = ew_coneAt(s);
         EW_ROWS_AT(tile, t);
@@ -78,13 +88,12 @@ void main() {
         if (ray.sign == 0.0 && evaluations == 0u) negative = value < 0.0;
         s = ew_coneTake(rules, s, negative ? -value : value);
         if (++evaluations >= ew_most_iterations) s = ew_coneStopped(s);
-        if (s.closed) {
-            uint hard = s.hard ? 0x80000000u : 0u;
-            ew_groups[groups * ew_count + i] = EwGroup(floatBitsToUint(ew_coneSampleAt(s)) | hard, s.entry_t, ew_coneLeast(s));
-            ++groups;
-        }
+        if (s.closed) ew_close(groups++, s);
     }
+    for (uint k = 0u; k < ew_room; ++k)
+        if (k >= taken && k < groups) ew_groups[k * ew_count + i] = ew_closed[k];
     ew_cone_states[i] = ew_packed(s, negative, groups, evaluations);
+    ew_report();
     if (ew_coneEnded(s) || ew_failed()) return;
     atomicAdd(ew_flags[groups < ew_room ? 5 : 6], 1u);
 }

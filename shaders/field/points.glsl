@@ -16,4 +16,5 @@ void main() {
     made.color_g = color.y;
     made.color_b = color.z;
     ew_points[i] = made;
+    ew_report();
 }

@@ -20,14 +20,30 @@ uint ew_endOf(EwState s) {
     return !ew_screen_candidate || s.at.candidate_error <= 1.0 ? ew_candidate : ew_out_of_steps;
 }
 
+/// Of a ray that has ended, what is asked of it.
+void ew_keepEnd(uint i, EwState s) {
+    ew_states[i].at.t = s.at.t;
+    ew_states[i].at.value = s.at.value;
+    ew_states[i].at.candidate_t = s.at.candidate_t;
+    ew_states[i].at.candidate_value = s.at.candidate_value;
+    ew_states[i].at.failed = s.at.failed;
+    ew_states[i].sign = s.sign;
+    ew_states[i].evaluations = s.evaluations;
+    ew_states[i].iterations = s.iterations;
+    ew_states[i].end = s.end;
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x + ew_first;
     if (i >= ew_count) return;
     EwRay ray = ew_rays[i];
     ew_TraceRules rules = ew_rulesOf(ray);
     uint tile = i / 64u;
-    EwState s = ew_states[i];
-    if (ew_fresh != 0u) s = ew_begin(ray, tile);
+    EwState s;
+    if (ew_fresh != 0u)
+        s = ew_begin(ray, tile);
+    else
+        s = ew_states[i];
     for (uint k = 0u; k < ew_steps && s.end == ew_running && ew_turns <= ew_most_turns && !ew_failed(); ++k) {
         float t = ew_traceAt(s.at);
         EW_ROWS_AT(tile, t);
@@ -39,6 +55,11 @@ void main() {
         s.at = ew_traceTake(rules, s.at, s.sign * value);
         s.end = ew_endOf(s);
     }
-    ew_states[i] = s;
-    if (s.end == ew_running && !ew_failed()) atomicAdd(ew_flags[5], 1u);
+    if (s.end == ew_running) {
+        ew_states[i] = s;
+        if (!ew_failed()) atomicAdd(ew_flags[5], 1u);
+    } else {
+        ew_keepEnd(i, s);
+    }
+    ew_report();
 }
