@@ -8,6 +8,7 @@
 #include "pipeline/error.h"
 #include "pipeline/field_parts.h"
 #include "pipeline/film_footprint.h"
+#include "pipeline/map_mesh_scene.h"
 #include "pipeline/mesh_scene.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/polygonize_within.h"
@@ -25,8 +26,15 @@ class FilmMesher {
   public:
     FilmMesher(const std::string& method, MeshChoice choice, const MethodInput& in)
         : method_(method), choice_(std::move(choice)), in_(in), footprint_(in.camera, in.film) {
+        if (isMap()) return;
         whole_ = sdf::fieldOfAll(*in.scene.field, glm::dvec3(in.camera.camera.world_from_camera[3]));
         parts_ = partsOf(whole_);
+        const glm::dvec3 eye(in.camera.camera.world_from_camera[3]);
+        for (const HalfSpace& half : parts_.half_spaces)
+            if (glm::dot(eye, half.normal_world) < half.offset)
+                throw InputError(method, fmt::format("needs triangles, and the eye is within a plane's solid "
+                                                     "half of '{}'; methods that trace it see it from within",
+                                                     in.scene.source));
     }
 
     FieldMesh make(const MeshStore* store) {
@@ -34,13 +42,16 @@ class FilmMesher {
         const std::optional<FilmPolygons> kept = store ? store->find(choice_) : std::nullopt;
         if (kept)
             made_ = *kept;
+        else if (isMap())
+            meshWithin(in_.scene);
         else if (!parts_.rest.tree.empty())
-            meshWithin();
+            meshTree();
         if (!kept) made_.report.seconds = watch.lap();
         if (!kept && store) store->keep(choice_, made_);
         FieldMesh out;
-        out.scene = meshScene(in_, whole_, made_, parts_.half_spaces);
+        out.scene = isMap() ? mapMeshScene(in_, made_) : meshScene(in_, whole_, made_, parts_.half_spaces);
         out.report = made_.report;
+        out.report.no_shadows = isMap() && losesShadows(*in_.scene.field);
         out.report.seconds += watch.lap();
         return out;
     }
@@ -53,18 +64,25 @@ class FilmMesher {
         return scene;
     }
 
-    void meshWithin() {
+    bool isMap() const { return in_.scene.field->glsl.has_value(); }
+
+    void meshTree() {
         const sdf::Box bounds = sdf::levelBox(parts_.rest.tree, parts_.rest.tree.root);
-        if (!bounds.empty() && !bounds.bounded())
+        if (bounds.empty()) return;
+        if (!bounds.bounded())
             throw InputError(method_, fmt::format("needs triangles, and '{}' is unbounded beside its planes; "
                                                   "polygonize --box --cap makes a mesh of a part",
                                                   in_.scene.source));
+        meshWithin(restScene());
+    }
+
+    void meshWithin(const Scene& scene) {
         PolygonizeOptions options;
         options.mesher = parseMesher(choice_.mesher);
         options.resolution = kFirstResolution;
         options.progress = &in_.progress;
-        MeasuredMesh measured = polygonizeWithin(allowed(), fmt::format("{} px", choice_.error_px), method_,
-                                                 restScene(), options);
+        MeasuredMesh measured =
+            polygonizeWithin(allowed(), fmt::format("{} px", choice_.error_px), method_, scene, options);
         made_.mesh = std::move(measured.made.mesh);
         MeshReport& report = made_.report;
         report.mesher = choice_.mesher;
@@ -107,18 +125,15 @@ class FilmMesher {
 
 FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store) {
     const std::string method = fmt::format("method '{}'", spec.typed);
-    if (input.scene.field->tree.empty() && input.scene.field->glsl)
-        throw InputError(method, fmt::format("needs triangles, and '{}' is GLSL: `edgewise polygonize` makes "
-                                             "a mesh of it, which is a scene of its own",
-                                             input.scene.source));
     return FilmMesher(method, spec.mesh.value_or(MeshChoice{}), input).make(store);
 }
 
 std::string wordsOf(const MeshReport& report) {
-    if (report.triangles == 0) return "polygonized: planes alone";
+    if (report.triangles == 0) return "polygonized: no surface, but for planes";
     return fmt::format(
-        "polygonized by '{}': {} triangles, measured {:.3g} px off the surface of {} px allowed; {:.2f} s",
-        report.mesher, report.triangles, report.error_px, report.asked_px, report.seconds);
+        "polygonized by '{}': {} triangles, measured {:.3g} px off the surface of {} px allowed; {:.2f} s{}",
+        report.mesher, report.triangles, report.error_px, report.asked_px, report.seconds,
+        report.no_shadows ? "; lights throw no shadows on a mesh of raw GLSL" : "");
 }
 
 }  // namespace edgewise

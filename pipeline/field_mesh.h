@@ -15,8 +15,7 @@ struct FieldMesh {
     MeshReport report;
 };
 
-/// Throws InputError naming the method: the scene is raw GLSL, or has other unbounded parts; as polygonize()
-/// does.
+/// Throws InputError naming the method for a scene with other unbounded parts; else as polygonize() does.
 /// `store`: of the input's scene, camera and film.
 FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store = nullptr);
 

@@ -3,18 +3,32 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "sdf/scale_bounds.h"
+
 namespace edgewise {
 namespace {
 
 using sdf::Kind, sdf::Node;
 
-/// A half-space, moved or not.
+/// The rows are the inverse's: the rotation's columns.
+glm::dvec3 turned(const sdf::RotationRows& rows, const glm::dvec3& v) {
+    glm::dvec3 sum(0.0);
+    for (int j = 0; j < 3; ++j) sum += v[j] * glm::dvec3(rows[3 * j], rows[3 * j + 1], rows[3 * j + 2]);
+    return sum;
+}
+
+/// A half-space, moved, turned and scaled or not.
 std::optional<HalfSpace> halfSpaceOf(const sdf::Tree& tree, std::uint32_t index) {
     const Node& node = tree.nodes[index];
     const std::vector<double>& n = node.numbers;
-    if (node.kind == Kind::kTranslate) {
+    if (node.kind == Kind::kTranslate || node.kind == Kind::kRotate || node.kind == Kind::kScale) {
         auto moved = halfSpaceOf(tree, node.children[0]);
-        if (moved) moved->offset += glm::dot(moved->normal_world, glm::dvec3(n[0], n[1], n[2]));
+        if (!moved) return moved;
+        if (node.kind == Kind::kTranslate)
+            moved->offset += glm::dot(moved->normal_world, glm::dvec3(n[0], n[1], n[2]));
+        if (node.kind == Kind::kScale) moved->offset *= n[0];
+        if (node.kind == Kind::kRotate)
+            moved->normal_world = turned(sdf::rotationRows(n), moved->normal_world);
         return moved;
     }
     if (node.kind != Kind::kPlane) return std::nullopt;

@@ -15,4 +15,19 @@ void addClosedForms(const sdf::FieldScene& scene, const sdf::TraceSettings& sett
                     fmt::format("{} shapes are met in closed form", scene.analytic.size())});
 }
 
+std::vector<PlanEntry> fieldPlan(const sdf::FieldScene& scene) {
+    const bool traced = !scene.tree.empty() || scene.glsl, bounded = traced && scene.bound_holds;
+    const std::string why_not = traced ? kBoundBroken : "the scene has no field";
+    std::vector<PlanEntry> plan;
+    plan.push_back(
+        {"prepass", bounded, bounded ? "cones find how far the rays of a tile are free" : why_not});
+    const bool pruned = bounded && !scene.glsl;
+    plan.push_back({"prune", pruned,
+                    pruned    ? "tapes are shortened where children do not count"
+                    : bounded ? "raw GLSL has no tape"
+                              : why_not});
+    addClosedForms(scene, {}, plan);
+    return plan;
+}
+
 }  // namespace edgewise

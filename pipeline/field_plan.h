@@ -16,4 +16,7 @@ inline constexpr const char* kBoundBroken = "the field changes faster than its b
 void addClosedForms(const sdf::FieldScene& scene, const sdf::TraceSettings& settings,
                     std::vector<PlanEntry>& plan);
 
+/// What a tracer of it would do by default, before any ray.
+std::vector<PlanEntry> fieldPlan(const sdf::FieldScene& scene);
+
 }  // namespace edgewise

@@ -25,6 +25,30 @@ sdf::RayGrid rayGrid(const ResolvedCamera& camera, const Film& film, double far)
     return grid;
 }
 
+sdf::FieldRay rayTowards(const sdf::RayGrid& grid, const glm::dvec3& p_world, double& t) {
+    sdf::FieldRay ray = grid.ray(glm::dvec2(0.0));
+    if (grid.perspective) {
+        t = glm::distance(p_world, grid.eye_world);
+        ray.direction_world = (p_world - grid.eye_world) / t;
+        return ray;
+    }
+    t = glm::dot(p_world - ray.origin_world, ray.direction_world);
+    ray.origin_world = p_world - t * ray.direction_world;
+    return ray;
+}
+
+double signOfView(const sdf::SceneTracer& scene, const sdf::RayGrid& grid, const Film& film) {
+    if (grid.perspective) return scene.signAt(grid.eye_world);
+    constexpr int kPlaces = 4;  // and one more along each side
+    for (int y = 0; y <= kPlaces; ++y)
+        for (int x = 0; x <= kPlaces; ++x) {
+            const glm::dvec2 part = glm::dvec2(x, y) / double(kPlaces);
+            const sdf::FieldRay ray = grid.ray(part * glm::dvec2(film.width, film.height));
+            if (scene.signAt(ray.origin_world + ray.direction_world * ray.t_min) > 0.0) return 1.0;
+        }
+    return -1.0;
+}
+
 void addDefaultRig(const ResolvedCamera& camera, sdf::ShadingSettings& settings) {
     const glm::dmat3 turn(camera.camera.world_from_camera);
     settings.ambient += glm::dvec3(kRigAmbient);

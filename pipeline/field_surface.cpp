@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "sdf/evaluate.h"
 #include "sdf/pattern_point.h"
@@ -62,18 +63,6 @@ TriangleLook FieldSurface::lookOf(const glm::dvec3 (&corners_world)[3]) const {
     return look;
 }
 
-sdf::FieldRay FieldSurface::rayTo(const glm::dvec3& p_world, double& t) const {
-    sdf::FieldRay ray = grid_.ray(glm::dvec2(0.0));
-    if (grid_.perspective) {
-        t = glm::distance(p_world, grid_.eye_world);
-        ray.direction_world = (p_world - grid_.eye_world) / t;
-        return ray;
-    }
-    t = glm::dot(p_world - ray.origin_world, ray.direction_world);
-    ray.origin_world = p_world - t * ray.direction_world;
-    return ray;
-}
-
 glm::dvec3 FieldSurface::color(const SeenPoint& point) const {
     const TriangleLook& look = looks_[point.triangle];
     sdf::SurfaceHit hit;
@@ -87,7 +76,7 @@ glm::dvec3 FieldSurface::color(const SeenPoint& point) const {
         shape = shapeAt(point.p_world + inward);
         hit.material = materialOf(shape);
     }
-    const sdf::TravellingRay way{rayTo(point.p_world, hit.t), point.back_facing ? -1.0 : 1.0};
+    const sdf::TravellingRay way{rayTowards(grid_, point.p_world, hit.t), point.back_facing ? -1.0 : 1.0};
     if (field_.materials[hit.material].pattern != sdf::SurfaceMaterial::Pattern::kNone) {
         const glm::dvec3 p = sdf::patternPoint(hit.p_world, hit.normal_world, 0.0, hit.t);
         hit.p_local = sdf::localAt(tape_, tape_.instructions[shape], p);

@@ -46,7 +46,6 @@ class FieldSurface : public PointShader {
   private:
     std::uint32_t shapeAt(const glm::dvec3& p_world) const;
     std::uint32_t materialOf(std::uint32_t shape) const;
-    sdf::FieldRay rayTo(const glm::dvec3& p_world, double& t) const;
 
     const sdf::FieldScene field_;
     const sdf::Tape tape_;

@@ -61,7 +61,7 @@ class CpuFieldTracer : public FieldTracer, private RayBatches {
           cones_(settings.cones.value_or(sdf::ConeSettings{})),
           tracer_(scene_, tape_, settings_),
           shader_(fieldShading(in, settings_, false), tracer_) {
-        sign_ = grid_.perspective ? tracer_.signAt(grid_.eye_world) : 1.0;
+        sign_ = signOfView(tracer_, grid_, in.film);
         setup_seconds_ = watch_.lap();
     }
 

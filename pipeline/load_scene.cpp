@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "pipeline/error.h"
+#include "pipeline/polygonize_map.h"
 #include "sdf/check_lipschitz.h"
 #include "sdf/load_glsl_map.h"
 #include "sdf/load_sdf.h"
@@ -80,6 +81,14 @@ void check(sdf::FieldScene& field) {
     }
 }
 
+/// What a camera frames that the file has not.
+void findBounds(sdf::FieldScene& map) {
+    if (const auto bounds = boundsOfMap(map))
+        map.bounds = *bounds;
+    else
+        map.warnings.push_back("no camera, and no bounds of the map were found: the origin is framed");
+}
+
 sdf::FieldScene readField(const fs::path& path, const LoadOptions& options) {
     if (!options.scene.empty()) throw InputError("--scene", "an SDF file holds one scene");
     if (!options.animation.empty()) throw InputError("--animation", "SDF scenes have none");
@@ -115,6 +124,7 @@ Scene loadScene(const fs::path& path, const LoadOptions& options) {
     try {
         sdf::FieldScene field = readField(path, options);
         check(field);
+        if (field.glsl && field.cameras.empty()) findBounds(field);
         if (options.progress) options.progress(1.0);
         return sceneOf(std::move(field), path);
     } catch (const sdf::SceneError& error) {

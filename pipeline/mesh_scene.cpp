@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <map>
 #include <memory>
 
 #include "pipeline/field_rays.h"
 #include "pipeline/field_shading.h"
 #include "pipeline/field_surface.h"
+#include "pipeline/geometry_builder.h"
 #include "sdf/evaluate.h"
 
 namespace edgewise {
@@ -19,32 +19,6 @@ namespace {
 /// Corners of a half-space's disc: 3 times a power of 2. Its chords are off its circle by
 /// radius (pi / n)^2 / 2, which is seen at the angle height / radius.
 constexpr int kDiscCorners = 192;
-
-/// Where the first triangles of a geometry come from; vertices with several normals are several.
-class GeometryBuilder {
-  public:
-    void add(std::uint32_t vertex, const glm::dvec3& p_world, const glm::dvec3& normal_world) {
-        const auto [found, is_new] =
-            vertices_.try_emplace({vertex, {normal_world.x, normal_world.y, normal_world.z}},
-                                  static_cast<std::uint32_t>(made.position_file.size()));
-        corners_.push_back(found->second);
-        if (is_new) {
-            made.position_file.emplace_back(p_world);
-            // What a file would hold: the scene is the same as the mesh that polygonize writes.
-            made.position_world.emplace_back(made.position_file.back());
-            made.normal_world.push_back(normal_world);
-        }
-        if (corners_.size() < 3) return;
-        made.triangles.push_back({corners_[0], corners_[1], corners_[2]});
-        corners_.clear();
-    }
-
-    Geometry made;
-
-  private:
-    std::map<std::pair<std::uint32_t, std::array<double, 3>>, std::uint32_t> vertices_;
-    std::vector<std::uint32_t> corners_;
-};
 
 class MeshScene {
   public:
@@ -102,7 +76,7 @@ class MeshScene {
                                  mesh.normal_world[t][i]);
                 surface_->add(looks[t]);
             }
-            addGeometry(std::move(geometry.made), material, "surface");
+            addGeometry(scene_, std::move(geometry.made), material, "surface");
         }
     }
 
@@ -143,18 +117,7 @@ class MeshScene {
         triangle(0, third, 2 * third);
         for (int step = third; step > 1; step /= 2)
             for (int a = 0; a < kDiscCorners; a += step) triangle(a, a + step / 2, (a + step) % kDiscCorners);
-        addGeometry(std::move(geometry.made), look.material, "plane");
-    }
-
-    void addGeometry(Geometry geometry, std::uint32_t material, const char* name) {
-        if (geometry.triangles.empty()) return;
-        geometry.material = material;
-        geometry.world_from_file = glm::dmat4(1.0);
-        geometry.node = geometry.mesh = static_cast<std::uint32_t>(scene_.node_names.size());
-        geometry.first_triangle = static_cast<std::uint32_t>(scene_.triangle_count);
-        scene_.triangle_count += geometry.triangles.size();
-        scene_.node_names.emplace_back(name), scene_.mesh_names.emplace_back(name);
-        scene_.geometry.push_back(std::move(geometry));
+        addGeometry(scene_, std::move(geometry.made), look.material, "plane");
     }
 
     const MethodInput& in_;

@@ -60,7 +60,7 @@ std::optional<FilmPolygons> MeshStore::find(const MeshChoice& choice) const try 
     FilmPolygons found;
     std::vector<char> report;
     reader.take(report), reader.take(found.mesh.position_world), reader.take(found.mesh.triangles);
-    reader.take(found.mesh.normal_world);
+    reader.take(found.mesh.normal_world), reader.take(found.mesh.color);
     found.report = meshFromJson(nlohmann::json::parse(report)).value();
     return found;
 } catch (const std::exception&) {
@@ -72,7 +72,7 @@ void MeshStore::keep(const MeshChoice& choice, const FilmPolygons& polygons) con
     Writer writer;
     writer.add(std::vector<char>(report.begin(), report.end()));
     writer.add(polygons.mesh.position_world), writer.add(polygons.mesh.triangles);
-    writer.add(polygons.mesh.normal_world);
+    writer.add(polygons.mesh.normal_world), writer.add(polygons.mesh.color);
     writeAtomically(fileOf(choice), writer.bytes);
 } catch (const InputError&) {
 } catch (const FailureError&) {

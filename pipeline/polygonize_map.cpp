@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "pipeline/device_error.h"
 #include "pipeline/error.h"
 #include "pipeline/methods/stopwatch.h"
 #ifdef EDGEWISE_HAS_VULKAN
@@ -45,11 +46,11 @@ class CappedField : public sdf::PointField {
     const glm::dvec3 middle_, half_;
 };
 
-std::shared_ptr<const sdf::PointField> pointsOf(const Scene& scene) {
+std::shared_ptr<const sdf::PointField> pointsOf(const sdf::FieldScene& map) {
 #ifdef EDGEWISE_HAS_VULKAN
-    return makeMapPoints(*scene.field);
+    return makeMapPoints(map);
 #else
-    throw InputError(scene.source, "is raw GLSL, and this build has no Vulkan to run it");
+    throw DeviceError(map.source + " is raw GLSL, and this build has no Vulkan to run it");
 #endif
 }
 
@@ -65,12 +66,23 @@ WorldBox boxOf(const Scene& scene, const sdf::PointField& field) {
 
 }  // namespace
 
+std::optional<sdf::Box> boundsOfMap(const sdf::FieldScene& map) {
+    try {
+        const std::optional<sdf::Box> box = sdf::boxOfPoints(*pointsOf(map), map.far);
+        return box && !box->empty() ? box : std::nullopt;
+    } catch (const sdf::SceneError&) {
+        return std::nullopt;
+    } catch (const DeviceError&) {
+        return std::nullopt;
+    }
+}
+
 Polygonized polygonizeMap(const Scene& scene, const PolygonizeOptions& options) {
     if (options.mesher == Mesher::kCgal)
         throw InputError("--mesher", "cgal has no raw GLSL; dual and marching-cubes have");
     Polygonized result;
     try {
-        result.points = pointsOf(scene);
+        result.points = pointsOf(*scene.field);
         WorldBox box = options.box ? *options.box : boxOf(scene, *result.points);
         if (options.cap) {
             result.points = std::make_shared<CappedField>(result.points, box);

@@ -8,7 +8,11 @@ namespace {
 std::uint32_t addShape(Tree& tree, const AnalyticShape& shape, const glm::dvec3& eye_world) {
     const glm::dvec3& c = shape.center_world;
     if (shape.type == AnalyticShape::Type::kSphere) {
-        const std::uint32_t ball = tree.add(Kind::kSphere, {shape.radius}, {}, shape.material);
+        std::uint32_t ball = tree.add(Kind::kSphere, {shape.radius}, {}, shape.material);
+        if (glm::distance(eye_world, c) < shape.radius) {  // seen from within: what is solid lies around it
+            const std::uint32_t around = tree.add(Kind::kSphere, {2.0 * shape.radius}, {}, shape.material);
+            ball = tree.add(Kind::kDifference, {}, {around, ball});
+        }
         return tree.add(Kind::kTranslate, {c.x, c.y, c.z}, {ball});
     }
     const double side = glm::dot(eye_world, shape.normal_world) < shape.offset ? -1.0 : 1.0;

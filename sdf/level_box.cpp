@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <map>
 
 #include "sdf/scale_bounds.h"
 #include "sdf/tree.h"
@@ -93,6 +94,25 @@ Box twisted(const Box& box, double radius, double level) {
     return result;
 }
 
+/// Of one tree. A node's box at level 0 is made once: repetitions and twists ask for their child's besides
+/// the one at their own level, which would double the work with every one inside another.
+class LevelBoxes {
+  public:
+    explicit LevelBoxes(const Tree& tree) : tree_(tree) {}
+
+    Box of(std::uint32_t index, double level) {
+        if (level != 0.0) return make(index, level);
+        const auto known = solid_.find(index);
+        return known != solid_.end() ? known->second : solid_[index] = make(index, 0.0);
+    }
+
+  private:
+    Box make(std::uint32_t index, double level);
+
+    const Tree& tree_;
+    std::map<std::uint32_t, Box> solid_;
+};
+
 }  // namespace
 
 bool Box::bounded() const {
@@ -103,12 +123,12 @@ bool Box::empty() const {
     return low[0] > high[0] || low[1] > high[1] || low[2] > high[2];
 }
 
-Box levelBox(const Tree& tree, std::uint32_t index, double level) {
-    const Node& node = tree.nodes[index];
+Box LevelBoxes::make(std::uint32_t index, double level) {
+    const Node& node = tree_.nodes[index];
     const std::vector<double>& n = node.numbers;
-    const auto child = [&](double at) { return levelBox(tree, node.children[0], at); };
+    const auto child = [&](double at) { return of(node.children[0], at); };
     const auto all = [&](double at, auto combine, Box box) {
-        for (const std::uint32_t c : node.children) box = combine(box, levelBox(tree, c, at));
+        for (const std::uint32_t c : node.children) box = combine(box, of(c, at));
         return box;
     };
     constexpr double kToCorner =
@@ -190,18 +210,22 @@ Box levelBox(const Tree& tree, std::uint32_t index, double level) {
         case Kind::kMirror:
             return mirrored(child(level), n);
         case Kind::kRepeat: {
-            const Repetition cells = repetitionOf(tree, node);
+            const Repetition cells = repetitionOf(tree_, node, child(0.0));
             // Along a wall values are no more than its distance and the margin, however far away the child.
             return cells.walls && level > cells.least_margin ? kEverything : repeated(child(level), n);
         }
         case Kind::kElongate:
             return grown(child(level), n[0] / 2, n[1] / 2, n[2] / 2);
         case Kind::kTwist: {
-            const double radius = twistRadius(tree, node);
+            const double radius = twistRadius(node, child(0.0));
             return twisted(child(level * twistBound(n[0], radius)), radius, level);
         }
     }
     return kEverything;
+}
+
+Box levelBox(const Tree& tree, std::uint32_t index, double level) {
+    return LevelBoxes(tree).of(index, level);
 }
 
 }  // namespace edgewise::sdf

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sdf/json_reader.h"
@@ -33,6 +34,7 @@ FieldScene loadSdf(std::string_view text) {
     scene.tree = readTree(document["tree"], scene.materials);
     requireTraceable(scene);
     scene.bounds = sceneBounds(scene);
+    if (!document.contains("far")) scene.far = std::max(scene.far, farFor(scene.bounds));
     return scene;
 }
 

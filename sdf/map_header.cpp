@@ -71,11 +71,23 @@ std::string_view behindBlocks(std::string_view line, bool& in_block) {
     return line;
 }
 
+/// Whether a block comment that begins in a line of code goes on behind it.
+bool opensBlock(std::string_view line) {
+    for (std::size_t at = 0; at + 1 < line.size(); ++at) {
+        if (line.substr(at, 2) == "//") return false;
+        if (line.substr(at, 2) != "/*") continue;
+        const std::size_t close = line.find("*/", at + 2);
+        if (close == std::string_view::npos) return true;
+        at = close + 1;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::vector<HeaderLine> headerLines(std::string_view text) {
     std::vector<HeaderLine> lines;
-    bool in_block = false;
+    bool in_block = false, in_code = false;
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
         std::string_view line = trimmed(text.substr(0, end));
@@ -83,11 +95,16 @@ std::vector<HeaderLine> headerLines(std::string_view text) {
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
         line = behindBlocks(line, in_block);
         if (line.empty() || line.starts_with('#') || line.starts_with("precision ")) continue;
-        if (!line.starts_with("//")) break;
+        if (!line.starts_with("//")) {
+            in_code = true, in_block = opensBlock(line);
+            continue;
+        }
         const std::string_view comment = trimmed(line.substr(2));
         const std::size_t colon = comment.find(':');
         if (colon == std::string_view::npos) continue;
-        lines.push_back({number, trimmed(comment.substr(0, colon)), trimmed(comment.substr(colon + 1))});
+        const HeaderLine found{number, trimmed(comment.substr(0, colon)), trimmed(comment.substr(colon + 1))};
+        // A bound may stand beside the map that it is of; what other comments say there is not for us.
+        if (!in_code || found.key == "lipschitz") lines.push_back(found);
     }
     return lines;
 }

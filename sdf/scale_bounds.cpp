@@ -59,8 +59,11 @@ double twistBound(double degrees_per_unit, double radius) {
 }
 
 double twistRadius(const Tree& tree, const Node& twist) {
+    return twistRadius(twist, levelBox(tree, twist.children[0]));
+}
+
+double twistRadius(const Node& twist, const Box& box) {
     if (twist.numbers[1] > 0.0) return twist.numbers[1];
-    const Box box = levelBox(tree, twist.children[0]);
     const double x = std::max(std::abs(box.low[0]), std::abs(box.high[0]));
     const double z = std::max(std::abs(box.low[2]), std::abs(box.high[2]));
     const double radius = std::hypot(x, z);
@@ -74,8 +77,12 @@ double displacementBound(const std::vector<double>& n) {
 }
 
 Repetition repetitionOf(const Tree& tree, const Node& node) {
+    return repetitionOf(tree, node, levelBox(tree, node.children[0]));
+}
+
+Repetition repetitionOf(const Tree& tree, const Node& node, const Box& child) {
     Repetition cells;
-    cells.box = levelBox(tree, node.children[0]);
+    cells.box = child;
     for (int i = 0; i < 3; ++i) {
         const bool repeats = node.numbers[i] > 0.0 && node.numbers[3 + i] > 0.0;
         cells.spacing[i] = repeats ? node.numbers[i] : 1.0,

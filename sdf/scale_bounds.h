@@ -19,6 +19,7 @@ double twistBound(double degrees_per_unit, double radius);
 /// The given radius, or the farthest corner of the child's box from the y axis. Throws SceneError for a child
 /// without bounds there.
 double twistRadius(const Tree& tree, const Node& twist);
+double twistRadius(const Node& twist, const Box& child);
 
 /// 1 + |amplitude| * the largest frequency: by what a displacement's values are divided, for a child of
 /// bound 1.
@@ -34,5 +35,6 @@ struct Repetition {
 };
 /// Throws SceneError for a child that reaches beyond its cell.
 Repetition repetitionOf(const Tree& tree, const Node& repeat);
+Repetition repetitionOf(const Tree& tree, const Node& repeat, const Box& child);
 
 }  // namespace edgewise::sdf

@@ -1,14 +1,21 @@
 #include <algorithm>
+#include <cmath>
 
 #include "sdf/load_sdf.h"
 
 namespace edgewise::sdf {
 namespace {
 
+/// Copies to either side that stand for no end of them, and how many of those a camera frames.
+constexpr double kEndless = 1e6, kShown = 3.0;
+
 /// Leaves out of every union the children that no box holds.
 void keepBounded(Tree& tree, std::uint32_t index) {
     for (const std::uint32_t child : tree.nodes[index].children) keepBounded(tree, child);
     Node& node = tree.nodes[index];
+    if (node.kind == Kind::kRepeat)
+        for (std::size_t axis = 3; axis < 6; ++axis)
+            if (node.numbers[axis] >= kEndless) node.numbers[axis] = kShown;
     if (node.kind != Kind::kUnion && node.kind != Kind::kSmoothUnion) return;
     std::erase_if(node.children, [&](std::uint32_t child) {
         const Box box = levelBox(tree, child);
@@ -43,6 +50,13 @@ Box sceneBounds(const FieldScene& scene) {
         bounds = hull(bounds, sphere);
     }
     return bounds.empty() ? Box{{0, 0, 0}, {0, 0, 0}} : bounds;
+}
+
+double farFor(const Box& bounds) {
+    constexpr double kDiagonals = 8.0;
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) sum += (bounds.high[i] - bounds.low[i]) * (bounds.high[i] - bounds.low[i]);
+    return kDiagonals * std::sqrt(sum);
 }
 
 }  // namespace edgewise::sdf

@@ -81,7 +81,9 @@ std::vector<KindInfo> makeKinds() {
          {{"factor", false, Rule::kPositive}}},
         {Kind::kDisplace,
          "displace",
-         "amplitude * sin(fx x) sin(fy y) sin(fz z) added to the values",
+         "amplitude * sin(fx x) sin(fy y) sin(fz z) added to the values, but for factors of frequency 0; "
+         "then "
+         "all divided by what makes it a bound again",
          Children::kOne,
          {{"amplitude"}, {"frequency", true}}},
         {Kind::kTranslate, "translate", "moved", Children::kOne, {{"by", true}}},
@@ -113,7 +115,8 @@ std::vector<KindInfo> makeKinds() {
          {{"by", true, Rule::kNotNegative}}},
         {Kind::kTwist,
          "twist",
-         "turned about the y axis by so much a unit of height; radius: of the cylinder that holds the child "
+         "turned about the y axis, +x towards +z, by so much a unit of height; radius: of the cylinder that "
+         "holds the child "
          "[its box]",
          Children::kOne,
          {{"degrees_per_unit"}, {"radius", false, Rule::kNotNegative, 0.0}}},

@@ -270,6 +270,7 @@ void runCompare(const CompareArguments& arguments) {
         study.run();
         if (!arguments.quiet) fmt::print("{}", study.summary());
     } catch (const compare::WorkerFailure& failure) {
+        throwIfInterrupted();
         throwAsOurs(failure, "compare");
     }
     throwIfInterrupted();

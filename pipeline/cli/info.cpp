@@ -8,6 +8,7 @@
 #include "pipeline/cli/command.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/picture_options.h"
+#include "pipeline/field_plan.h"
 #include "pipeline/plan.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/project.h"
@@ -120,15 +121,19 @@ Json ignoredJson(const Scene& scene) {
     return list;
 }
 
+Json entriesJson(const std::vector<PlanEntry>& plan) {
+    Json list = Json::array();
+    for (const PlanEntry& entry : plan)
+        list.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
+    return list;
+}
+
 /// What nsaa would do by default.
 Json planJson(const Picture& picture) {
     ScreenPieces pieces;
     const ScreenScene screen = project(picture.scene, picture.camera, picture.film, pieces);
     const Shading shading(picture.scene, picture.camera, picture.film, screen, pieces);
-    Json list = Json::array();
-    for (const PlanEntry& entry : makePlan(picture.scene, screen, pieces, shading, RenderOptions{}).entries)
-        list.push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
-    return list;
+    return entriesJson(makePlan(picture.scene, screen, pieces, shading, RenderOptions{}).entries);
 }
 
 /// Kinds with how often each is there, in the order of kindInfos().
@@ -166,6 +171,8 @@ Json fieldJson(const Picture& picture) {
             {"cameras", camerasJson(scene)},
             {"camera", resolvedCameraJson(picture)},
             {"lights", lightsJson(scene)},
+            {"ignored", ignoredJson(scene)},
+            {"plan", entriesJson(fieldPlan(field))},
             {"warnings", field.warnings}};
 }
 

@@ -36,7 +36,7 @@ void handle(int signal, void (*handler)(int)) {
 
 void catchInterrupts() {
     handle(SIGALRM, leaveAtOnce);
-    handle(SIGINT, onInterrupt);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, onInterrupt);
 }
 
 const std::atomic<bool>& interruptFlag() {

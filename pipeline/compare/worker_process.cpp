@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/wait.h>
 
 #include <boost/asio.hpp>
 #include <boost/process.hpp>
@@ -19,6 +20,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Between looks at whether the user has had enough.
 constexpr std::chrono::milliseconds kPatience{50};
+
+/// Exit statuses of the contract.
+constexpr int kFailed = 1, kWasInterrupted = 130;
 
 }  // namespace
 
@@ -50,7 +54,7 @@ struct WorkerProcess::State {
             if (cancelled) throw Interrupted();
             if (late) return false;
         }
-        if (ended) throw WorkerFailure(howItEnded(), child.exit_code());
+        if (ended) throwHowItEnded();
         std::istream stream(&received);
         std::getline(stream, line);
         return true;
@@ -69,9 +73,17 @@ struct WorkerProcess::State {
         context.run();  // the read that was under way
     }
 
-    std::string howItEnded() {
+    /// Who interrupts a terminal's program interrupts its workers with it.
+    [[noreturn]] void throwHowItEnded() {
         child.wait();
-        return fmt::format("its process ended with status {}", child.exit_code());
+        const int how = child.native_exit_code();
+        if (WIFSIGNALED(how)) {
+            if (WTERMSIG(how) == SIGINT) throw Interrupted();
+            throw WorkerFailure(fmt::format("its process was ended by signal {}", WTERMSIG(how)), kFailed);
+        }
+        if (child.exit_code() == kWasInterrupted) throw Interrupted();
+        throw WorkerFailure(fmt::format("its process ended with status {}", child.exit_code()),
+                            child.exit_code());
     }
 };
 

@@ -47,9 +47,25 @@ FieldSettings settingsOf(const MethodSpec& spec) {
     return settings;
 }
 
+/// Of the method or of what it is composed with.
+std::optional<std::string> deviceNamedBy(const MethodSpec& spec) {
+    std::optional<std::string> device;
+    const auto look = [&](const MethodSpec& part) {
+        const auto own = part.parameters.find("device");
+        if (own == part.parameters.end()) return;
+        if (device && *device != own->second)
+            throw InputError(fmt::format("method '{}'", spec.typed),
+                             fmt::format("names two devices, {} and {}", *device, own->second));
+        device = own->second;
+    };
+    look(spec);
+    for (const MethodSpec& part : spec.composed) look(part);
+    return device;
+}
+
 DeviceChoice choiceOf(const MethodSpec& spec, const MethodInput& in) {
-    const auto own = spec.parameters.find("device");
-    const DeviceChoice choice = own == spec.parameters.end() ? in.options.device : deviceChoice(own->second);
+    const std::optional<std::string> own = deviceNamedBy(spec);
+    const DeviceChoice choice = own ? deviceChoice(*own) : in.options.device;
     const bool glsl = in.scene.field->glsl.has_value();
     return glsl && choice == DeviceChoice::kAuto ? DeviceChoice::kVulkan : choice;
 }

@@ -12,6 +12,7 @@ nlohmann::ordered_json meshJson(const std::optional<MeshReport>& mesh) {
             {"surface_to_mesh", mesh->surface_to_mesh},
             {"error_px", mesh->error_px},
             {"cell", mesh->cell_world},
+            {"no_shadows", mesh->no_shadows},
             {"seconds", mesh->seconds}};
 }
 
@@ -24,6 +25,7 @@ std::optional<MeshReport> meshFromJson(const nlohmann::json& json) {
     mesh.error_px = json.at("error_px");
     mesh.mesh_to_surface = json.at("mesh_to_surface"), mesh.surface_to_mesh = json.at("surface_to_mesh");
     mesh.cell_world = json.at("cell"), mesh.seconds = json.at("seconds");
+    mesh.no_shadows = json.value("no_shadows", false);
     return mesh;
 }
 

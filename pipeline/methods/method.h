@@ -94,6 +94,7 @@ struct MeshReport {
     double surface_to_mesh = 0.0;
     double cell_world = 0.0;  ///< of the mesher's lattice
     double seconds = 0.0;     ///< in all; part of setup_seconds
+    bool no_shadows = false;  ///< lights that throw some on the field throw none on the mesh
 };
 
 struct MethodResult {

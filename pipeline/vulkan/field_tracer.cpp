@@ -56,9 +56,8 @@ class VulkanFieldTracer : public FieldTracer {
         if (scene_.glsl || tape_.size() > 0) makeRays();
         batches_.emplace(scene_, tape_, shaders_, settings_, rays_ ? &*rays_ : nullptr, around_, most_,
                          [this] { return input_.progress.cancelled(); });
-        // The field's sign at the eye; a map's is found by its rays.
-        if (!grid_.perspective) sign_ = 1.0;
-        if (grid_.perspective && !scene_.glsl) sign_ = closed_.signAt(grid_.eye_world);
+        // A map's sign is found by its rays.
+        if (!scene_.glsl) sign_ = signOfView(closed_, grid_, input.film);
         if (cones_ && tiles_) makeCones();
         setup_seconds_ = secondsSince(start);
     }

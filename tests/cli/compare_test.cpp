@@ -64,6 +64,18 @@ TEST(Compare, GivesARowAMethodAndAllFiles) {
 }
 
 /// A method with a box of its own is judged against the reference with that box.
+TEST(Compare, AnInterruptReachesItsWorkersAndIsNoFailureOfTheirs) {
+    const TemporaryFolder folder;
+    for (const int after_ms : {300, 2500}) {  // in the reference, and among the runs
+        const ProgramRun run = runProgram({"compare", "torus-20k", "-o", "out", "--size", "48x32", "--method",
+                                           "none", "--runs", "100000", "--quiet"},
+                                          folder.path(), after_ms);
+        EXPECT_EQ(run.status, 130) << run.err;
+        EXPECT_EQ(run.err.find("status"), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out/results.json"));
+    }
+}
+
 TEST(Compare, JudgesARowByItsOwnFilter) {
     const TemporaryFolder folder;
     const ProgramRun run = compareIn(

@@ -41,10 +41,13 @@ ProgramRun run(const std::string& program, const Arguments& arguments, const std
     const TemporaryFolder streams;
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork");
-    if (child == 0) becomeProgram(program, arguments, folder, streams);
+    if (child == 0) {
+        setpgid(0, 0);
+        becomeProgram(program, arguments, folder, streams);
+    }
     if (interrupt_after_ms >= 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
-        kill(child, SIGINT);
+        kill(-child, SIGINT);  // as a terminal does: its workers get it too
     }
     int status = 0;
     waitpid(child, &status, 0);

@@ -226,6 +226,19 @@ TEST(SdfCommand, DumpsStagesAndExplains) {
     EXPECT_NE((run.out + run.err).find("prune"), std::string::npos);
 }
 
+TEST(SdfCommand, InfoTellsThePlanAndWhatIsIgnored) {
+    const TemporaryFolder folder;
+    const ProgramRun run = inFolder(folder, {"info", "ball.sdf.json", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json info = json::parse(run.out);
+    EXPECT_EQ(info.at("ignored"), json::array());
+    ASSERT_EQ(info.at("plan").size(), 4u);
+    for (const json& entry : info["plan"]) EXPECT_FALSE(entry.at("why").get<std::string>().empty());
+    EXPECT_EQ(info["plan"][0], (json{{"stage", "prepass"},
+                                     {"runs", true},
+                                     {"why", "cones find how far the rays of a tile are free"}}));
+}
+
 TEST(SdfCommand, MethodsListTheirParametersAndRanges) {
     const ProgramRun run = runProgram({"methods"});
     for (const char* words :

@@ -14,6 +14,8 @@
 #include "pipeline/judge/metrics.h"
 #include "pipeline/judge/silhouette.h"
 #include "pipeline/scoped_path.h"
+#include "sdf/evaluate.h"
+#include "sdf/field_of_all.h"
 #include "tests/pipeline/field_pictures.h"
 
 namespace edgewise {
@@ -261,6 +263,22 @@ TEST(FieldMesh, HalfSpacesAreTakenApart) {
     EXPECT_EQ(parts.rest.tree.root, ball);
 }
 
+/// Turned, scaled and moved: where the tree's own value says that it is.
+TEST(FieldMesh, ATurnedPlaneIsAHalfSpaceToo) {
+    sdf::FieldScene field;
+    sdf::Tree& tree = field.tree;
+    const auto plane = tree.add(Kind::kPlane, {0.2, 0.9, -0.1, 0.3});
+    const auto scaled = tree.add(Kind::kScale, {2.5}, {plane});
+    tree.root = at(tree, {0.5, -1, 2}, tree.add(Kind::kRotate, {1, 2, 3, 70}, {scaled}));
+    const FieldParts parts = partsOf(field);
+    ASSERT_EQ(parts.half_spaces.size(), 1u);
+    EXPECT_TRUE(parts.rest.tree.empty());
+    const HalfSpace& half = parts.half_spaces[0];
+    const sdf::Tape tape = sdf::lower(tree);
+    for (const glm::dvec3& p : {glm::dvec3(0), glm::dvec3(1, 2, 3), glm::dvec3(-4, 0.5, 7)})
+        EXPECT_NEAR(glm::dot(p, half.normal_world) - half.offset, sdf::valueAt(tape, p), 1e-14);
+}
+
 TEST(FieldMesh, APixelIsAsLargeAsWhatMovesAPointByOne) {
     const FieldPicture picture = looking(64, 48);
     const FilmFootprint footprint(picture.camera, picture.film);
@@ -374,8 +392,33 @@ TEST(FieldMesh, RefusesInOneLine) {
     EXPECT_NE(problemOf(picture, "mesh:device=cpu+none").find("no parameter"), std::string::npos);
     EXPECT_NE(problemOf(picture, "mesh:mesher=best+none").find("dual"), std::string::npos);
     picture.field->tree = {};
-    picture.field->glsl.emplace();
-    EXPECT_NE(problemOf(picture, "nsaa").find("GLSL"), std::string::npos);
+    picture.field->tree.root = picture.field->tree.add(Kind::kPlane, {0.0, -1.0, 0.0, 0.0});
+    EXPECT_NE(problemOf(picture, "nsaa").find("the eye is within"), std::string::npos);
+}
+
+TEST(FieldMesh, ASceneWithoutSurfaceIsBackground) {
+    FieldPicture picture = looking(16, 16);
+    picture.options.background = glm::dvec3(0.25, 0.5, 0.75);
+    sdf::Tree& tree = picture.field->tree;
+    const auto one = at(tree, {-2, 0, 0}, tree.add(Kind::kSphere, {0.5})),
+               other = at(tree, {2, 0, 0}, tree.add(Kind::kSphere, {0.5}));
+    tree.root = tree.add(Kind::kIntersection, {}, {one, other});
+    for (const glm::dvec4& pixel : picture.made("nsaa").image.rgba)
+        EXPECT_EQ(pixel, glm::dvec4(0.25, 0.5, 0.75, 0.0));
+}
+
+/// A closed form around the eye hides what is beyond it, and nothing within.
+TEST(FieldMesh, ASphereAroundTheEyeIsSeenFromWithin) {
+    sdf::FieldScene field;
+    field.analytic.push_back({.center_world = {1, 0, 0}, .radius = 4.0});
+    field.tree.root = field.tree.add(Kind::kSphere, {0.5});
+    const glm::dvec3 eye(3, 0, 0);
+    const sdf::FieldScene all = sdf::fieldOfAll(field, eye);
+    const sdf::Tape tape = sdf::lower(all.tree);
+    EXPECT_NEAR(sdf::valueAt(tape, eye), 2.0, 1e-15);                  // to the wall
+    EXPECT_NEAR(sdf::valueAt(tape, glm::dvec3(1, 0, 0)), 0.5, 1e-15);  // to the ball
+    EXPECT_LT(sdf::valueAt(tape, glm::dvec3(5.5, 0, 0)), 0.0);
+    EXPECT_TRUE(sdf::levelBox(all.tree, all.tree.root).bounded());
 }
 
 }  // namespace

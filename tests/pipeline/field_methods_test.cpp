@@ -11,6 +11,7 @@
 #include "pipeline/methods/method.h"
 #include "pipeline/resolve_camera.h"
 #include "sdf/tree.h"
+#include "tests/pipeline/field_pictures.h"
 
 namespace edgewise {
 namespace {
@@ -185,6 +186,24 @@ TEST(FieldMethods, ParametersThatAreNumbersAreChecked) {
     for (const char* wrong : {"sphere:omega=3", "sphere:omega=nan", "sphere:steps=1.5", "sphere:threshold=0",
                               "sphere:omega=1.2,omega=1.3", "sphere:discontinuity=x", "sphere:relax=fast"})
         EXPECT_THROW(parseMethod(wrong), InputError) << wrong;
+}
+
+/// Parallel rays that all begin in the solid end where they leave it.
+TEST(FieldMethods, ParallelRaysMayBeginWithinTheSolid) {
+    test::FieldPicture picture = test::flatPicture(16, 16);
+    picture.field->tree.root = picture.field->tree.add(sdf::Kind::kBox, {60.0, 60.0, 40.0});
+    picture.options.aovs = {Aov::kDepth};
+    const MethodResult made = picture.made("none");
+    for (std::size_t i = 0; i < made.image.rgba.size(); ++i)  // from z = 10 to -20
+        EXPECT_NEAR(std::bit_cast<float>(made.image.aov.pixel(i)[0]), 30.0, 1e-3);
+}
+
+TEST(FieldMethods, ADeviceMayBeNamedBehindAnyPart) {
+    test::FieldPicture picture = test::flatPicture(8, 8);
+    picture.field->tree.root = picture.field->tree.add(sdf::Kind::kSphere, {3.0});
+    picture.options.device = DeviceChoice::kVulkan;
+    EXPECT_EQ(picture.made("ctss+ssaa:2,device=cpu").device, "cpu");
+    EXPECT_THROW(picture.made("ctss:device=vulkan+ssaa:2,device=cpu"), InputError);
 }
 
 TEST(FieldMethods, TrianglesAndFieldsHaveTheirOwnMethods) {

@@ -37,6 +37,17 @@ TEST(GlslMap, ReadsItsHeader) {
     EXPECT_TRUE(scene.tree.empty());
 }
 
+TEST(GlslMap, ABoundMayStandBesideItsMap) {
+    const FieldScene scene = loadGlslMap(
+        "float f(float x) { return x; } /* a\n// lipschitz: 9\n*/\n"
+        "// light: the key light\n// lipschitz: 3\n" +
+            kMap,
+        "a");
+    EXPECT_EQ(scene.glsl->lipschitz, 3.0);
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_EQ(refusal("// lipschitz: 2\n" + kMap + "// lipschitz: 3\n"), "line 3: lipschitz: is there twice");
+}
+
 TEST(GlslMap, NeedsNoHeader) {
     const FieldScene scene = loadGlslMap("float  map ( vec3 p ) { return p.y; }  // vec3 albedo(", "a");
     EXPECT_FALSE(scene.glsl->has_albedo);

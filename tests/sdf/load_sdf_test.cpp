@@ -114,6 +114,27 @@ TEST(LoadSdf, PlacesFirstScaleThenTurnThenMove) {
     EXPECT_NEAR(valueOf(tree, {1.5, 10, 0}), 1.0, 1e-14);
 }
 
+TEST(LoadSdf, RaysReachWhatACameraFrames) {
+    const auto farOf = [](const std::string& rest) { return loadSdf("{" + rest + "}").far; };
+    const std::string small = R"("tree": {"type": "sphere", "radius": 1})",
+                      large = R"("tree": {"type": "sphere", "radius": 500})";
+    EXPECT_EQ(farOf(small), 1000.0);
+    EXPECT_EQ(farOf(R"("far": 20, )" + large), 20.0);
+    // The framing camera is 1.05 / sin(22.5 degrees) radii of the bounds' ball away.
+    EXPECT_GT(farOf(large), (1.05 / 0.38 + 1.0) * 500.0 * std::sqrt(3.0));
+    const FieldScene endless = loadSdf(
+        R"({"tree": {"type": "repeat", "spacing": [4, 4, 0], "child": {"type": "sphere", "radius": 1}}})");
+    EXPECT_EQ(endless.bounds.high[0], 13.0);
+    EXPECT_EQ(endless.bounds.high[2], 1.0);
+}
+
+/// In time that grows with the depth, not with 2 to its power.
+TEST(LoadSdf, RepetitionsMayNest) {
+    std::string tree = R"({"type": "sphere", "radius": 1})";
+    for (int i = 0; i < 60; ++i) tree = R"({"type": "repeat", "spacing": [0, 0, 0], "child": )" + tree + "}";
+    EXPECT_NEAR(valueOf(tree, {3, 0, 0}), 2.0, 1e-14);
+}
+
 TEST(LoadSdf, ReadsWhatIsBesideTheTree) {
     const FieldScene scene = loadSdf(R"({"$schema": "x", "title": "t", "far": 50, "ambient": [0.1, 0.2, 0.3],
         "background": [1, 2, 3], "reflections": 4, "refractions": 0, "path_traced": true,

@@ -10,6 +10,7 @@
 #include "pipeline/polygonize.h"
 #include "pipeline/polygonize_within.h"
 #include "sdf/load_glsl_map.h"
+#include "tests/pipeline/field_pictures.h"
 #include "tests/vulkan/test_device.h"
 
 namespace edgewise::vulkan {
@@ -92,6 +93,29 @@ TEST_F(MapMesh, RefinesUntilItIsNear) {
     const MeasuredMesh near = polygonizeWithin(asked, "0.3 of it", "--max-error", scene, options);
     EXPECT_LE(std::max(near.distance.mesh_to_surface, near.distance.surface_to_mesh), asked);
     EXPECT_LT(near.made.lattice.step, first.lattice.step);
+}
+
+/// A ball of 20 px: its area is off by no more than its mesh is, 0.2 px all around.
+TEST_F(MapMesh, TriangleMethodsMakeTheirPictureOfIt) {
+    edgewise::test::FieldPicture picture = edgewise::test::flatPicture(64, 48);
+    picture.scene.field = picture.field = std::make_shared<sdf::FieldScene>(
+        sdf::loadGlslMap("float map(vec3 p) { return length(p) - 20.0; }\nvec3 albedo(vec3 p, vec3 n) { "
+                         "return vec3(1, 0.5, 0); }",
+                         "a.map.glsl"));
+    MethodResult made;
+    try {
+        made = picture.made("nsaa");
+    } catch (const FailureError& error) {
+        GTEST_SKIP() << error.what();
+    }
+    double area = 0.0;
+    for (const glm::dvec4& pixel : made.image.rgba) {
+        area += pixel.a;
+        EXPECT_NEAR(pixel.g, 0.5 * pixel.r, 1e-12);
+    }
+    EXPECT_NEAR(area, 400.0 * 3.14159265, 2.0 * 3.14159265 * 20.0 * 0.2);
+    ASSERT_FALSE(made.notes.empty());
+    EXPECT_NE(made.notes[0].find("polygonized"), std::string::npos);
 }
 
 TEST_F(MapMesh, EndsAtACap) {
