@@ -64,7 +64,10 @@ void writeOutputs(const PostArguments& arguments, const PictureFile& picture, Pr
     WriteOptions options;
     options.width = picture.width;
     options.height = picture.height;
-    options.metadata = {{"version", version()}, {"command", arguments.command_line}, {"device", "cpu"}};
+    options.metadata = {{"version", version()},
+                        {"command", arguments.command_line},
+                        {"device", "cpu"},
+                        {"seed", "0"}};  // nothing is drawn by chance
     std::vector<ImageWriter> writers;
     for (const std::string& output : arguments.outputs) {
         writers.emplace_back(output, picture.image.box, picture.image.aov, options);
