@@ -104,6 +104,21 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
     EXPECT_EQ(rowOf(resultsOf(folder), "none").at("size"), json({40, 32}));
 }
 
+/// Names of files are bytes, and JSON's text is UTF-8.
+TEST(Compare, NamesNeedNotBeUtf8) {
+    const TemporaryFolder folder;
+    const std::string scene = "r\xe9seau.glb", out = "r\xe9sultat";
+    std::filesystem::copy_file(std::filesystem::path(EDGEWISE_TEST_DATA) / "torus-20k.glb", folder / scene);
+    const ProgramRun run = runProgram({"compare", scene, "-o", out, "--size", "24x16", "--device", "cpu",
+                                       "--runs", "1", "--method", "none"},
+                                      folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = json::parse(readFile(folder / (out + "/results.json")));
+    EXPECT_EQ(results.at("scene"), "r\ufffdseau.glb");
+    EXPECT_EQ(rowOf(results, "none").at("status"), "ok");
+    EXPECT_TRUE(std::filesystem::exists(folder / (out + "/report.html")));
+}
+
 TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {
     for (const Arguments& wrong : {Arguments{"--method", "nsaa", "--method", "msaa:5"},
                                    {"--method", "nsaa", "--method", "nsaa"},
