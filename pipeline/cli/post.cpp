@@ -99,7 +99,7 @@ void post(const PostArguments& arguments) {
     writeOutputs(arguments, picture, progress);
     result.setup_seconds = process.setup_seconds;
     if (arguments.stats) writeAtomically(*arguments.stats, statisticsJson(result));
-    if (method.parameter("device", "auto") == "vulkan")
+    if (method.has("device", "vulkan"))
         spdlog::warn("'{}' ran on the CPU: it has no Vulkan form", method.name);
 }
 

@@ -104,6 +104,16 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
     EXPECT_EQ(rowOf(resultsOf(folder), "none").at("size"), json({40, 32}));
 }
 
+TEST(Compare, ParametersAreResolved) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(compareIn(folder, {"--runs", "1", "--method", "ssaa:2", "--method", "smaa:edges=color"}).status,
+              0);
+    const json results = resultsOf(folder);
+    EXPECT_EQ(rowOf(results, "ssaa:2").at("parameters"), json({{"number", 2}}));
+    EXPECT_EQ(rowOf(results, "smaa:edges=color").at("parameters"),
+              json({{"preset", "high"}, {"edges", "color"}, {"blend", "linear"}}));
+}
+
 /// Names of files are bytes, and JSON's text is UTF-8.
 TEST(Compare, NamesNeedNotBeUtf8) {
     const TemporaryFolder folder;
