@@ -216,6 +216,7 @@ void addInfo(CLI::App& program) {
     auto arguments = std::make_shared<InfoArguments>();
     addPictureOptions(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");
+    acceptQuiet(*command);
     command->callback([arguments] { info(*arguments); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/exposure_option.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/method_options.h"
 #include "pipeline/cli/parse_values.h"
@@ -30,7 +31,7 @@ struct PostArguments {
     std::string image, method, command_line;
     std::vector<std::string> outputs;
     MethodArguments making;  ///< of which --threads
-    std::optional<std::string> stats;
+    std::optional<std::string> exposure, stats;
     bool quiet = false;
 };
 
@@ -64,6 +65,7 @@ void writeOutputs(const PostArguments& arguments, const PictureFile& picture, Pr
     WriteOptions options;
     options.width = picture.width;
     options.height = picture.height;
+    options.exposure_ev = readExposure(arguments.exposure);
     options.metadata = {{"version", version()},
                         {"command", arguments.command_line},
                         {"device", "cpu"},
@@ -86,6 +88,7 @@ void post(const PostArguments& arguments) {
         imageFormat(output);
     }
     if (arguments.stats) checkOutputPath(*arguments.stats);
+    readExposure(arguments.exposure);
     const MethodSpec method = parseMethod(arguments.method);
     if (!method.composed.empty())
         throw InputError(fmt::format("method '{}'", method.typed), "does not compose with other methods");
@@ -121,6 +124,7 @@ void addPost(CLI::App& program, const std::string& command_line) {
         ->type_name("OUT.exr|OUT.png")
         ->required()
         ->allow_extra_args(false);
+    addExposureOption(*command, arguments->exposure);
     command->add_option("--threads", arguments->making.threads, "CPU threads [all]")->type_name("N");
     command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")
         ->type_name("FILE.json");

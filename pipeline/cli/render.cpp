@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,10 +11,10 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/aov_options.h"
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/exposure_option.h"
 #include "pipeline/cli/filter_options.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/method_options.h"
-#include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/cli/statistics.h"
 #include "pipeline/cli/strips.h"
@@ -28,8 +27,6 @@
 namespace edgewise::cli {
 namespace {
 
-constexpr double kMaxExposureEv = 1000.0;  // 2^1000 is still a double
-
 struct RenderArguments {
     PictureArguments picture;
     FilterArguments filter;
@@ -40,13 +37,6 @@ struct RenderArguments {
     bool explain = false, quiet = false;
     std::string command_line;
 };
-
-double readExposure(const std::optional<std::string>& text) {
-    const double ev = text ? parseNumber("--exposure", *text) : 0.0;
-    if (std::abs(ev) > kMaxExposureEv)
-        throw InputError("--exposure", fmt::format("{} is not within +-{}", ev, kMaxExposureEv));
-    return ev;
-}
 
 /// Absolute first: the part of a relative path that does not exist stays relative.
 std::filesystem::path resolved(const std::string& path) {
@@ -195,7 +185,7 @@ void addRender(CLI::App& program, const std::string& command_line) {
         ->capture_default_str();
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
-    command->add_option("--exposure", arguments->exposure, "PNG only [0]")->type_name("EV");
+    addExposureOption(*command, arguments->exposure);
     command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")
         ->type_name("FILE.json");
     command

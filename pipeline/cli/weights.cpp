@@ -126,6 +126,7 @@ void addWeights(CLI::App& program) {
     command->add_flag("--exact", arguments->exact, "the oracle's weights beside the normal ones");
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
+    acceptQuiet(*command);
     command->callback([arguments] { weights(*arguments); });
 }
 

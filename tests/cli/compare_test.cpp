@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipeline/version.h"
+#include "tests/cli/read_picture.h"
 #include "tests/cli/run_program.h"
 
 namespace edgewise::test {
@@ -102,6 +103,24 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
     // another size is another command
     ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none"}, "40x32").status, 0);
     EXPECT_EQ(rowOf(resultsOf(folder), "none").at("size"), json({40, 32}));
+}
+
+TEST(Compare, ExposureIsForPngAlone) {
+    const TemporaryFolder folder;
+    const auto compareAt = [&](Arguments more) {
+        more.insert(more.end(), {"--method", "ssaa:2", "--runs", "1", "--resume"});
+        const ProgramRun run = compareIn(folder, more);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return rowOf(resultsOf(folder), "ssaa:2").at("error");
+    };
+    const auto pixels = [&](const char* name) {
+        return readPicture(folder / (std::string("out/") + name)).values;
+    };
+    const json error = compareAt({});
+    const auto exr = pixels("ssaa_2.exr"), png = pixels("ssaa_2.png");
+    EXPECT_EQ(compareAt({"--exposure", "-1"}), error);
+    EXPECT_EQ(pixels("ssaa_2.exr"), exr);
+    EXPECT_NE(pixels("ssaa_2.png"), png) << "kept by --resume?";
 }
 
 TEST(Compare, ParametersAreResolved) {

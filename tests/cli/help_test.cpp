@@ -61,6 +61,13 @@ TEST(Help, OfRenderNamesEveryFlag) {
         EXPECT_NE(run.out.find(flag), std::string::npos) << flag;
 }
 
+TEST(Help, EveryCommandTakesQuiet) {
+    for (const char* command : {"render", "compare", "sweep", "merge", "polygonize", "weights", "metrics",
+                                "post", "info", "methods", "filters", "scenes", "figure", "figures"})
+        EXPECT_NE(runProgram({command, "--help"}).out.find("--quiet"), std::string::npos) << command;
+    EXPECT_EQ(runProgram({"info", "torus-20k", "--quiet"}).status, 0);
+}
+
 TEST(Help, VersionIsOneLine) {
     const ProgramRun run = runProgram({"--version"});
     EXPECT_EQ(run.status, 0);

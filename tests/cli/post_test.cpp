@@ -74,6 +74,15 @@ TEST(Post, SaysInTheMetadataHowItWasMade) {
     EXPECT_EQ(spec.get_string_attribute("edgewise:seed"), "0");
 }
 
+TEST(Post, ExposureIsForPngAlone) {
+    const TemporaryFolder folder;
+    renderNone(folder, "none.exr");
+    run(folder, {"post", "none.exr", "--method", "fxaa", "-o", "a.exr", "-o", "a.png"});
+    run(folder, {"post", "none.exr", "--method", "fxaa", "-o", "b.exr", "-o", "b.png", "--exposure", "-1"});
+    EXPECT_EQ(readPicture(folder / "a.exr").values, readPicture(folder / "b.exr").values);
+    EXPECT_NE(readPicture(folder / "a.png").values, readPicture(folder / "b.png").values);
+}
+
 TEST(Post, ThreadsDoNotEnterThePixels) {
     const TemporaryFolder folder;
     renderNone(folder, "none.png");
