@@ -16,6 +16,7 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/method_options.h"
 #include "pipeline/cli/picture_options.h"
+#include "pipeline/cli/result_folder.h"
 #include "pipeline/cli/statistics.h"
 #include "pipeline/cli/strips.h"
 #include "pipeline/error.h"
@@ -64,16 +65,6 @@ void requireMemoryFor(const PixelBox& crop, const std::set<Aov>& aovs) {
         throw FailureError("memory",
                            fmt::format("a picture of {}x{} needs {:.0f} MiB, this machine has {:.0f}",
                                        crop.width(), crop.height(), needed / 0x1p20, machine / 0x1p20));
-}
-
-/// The folder of --dump-stages exists afterwards.
-void makeDumpFolder(const RenderOptions& options) {
-    if (!options.dump_dir) return;
-    std::error_code error;
-    std::filesystem::create_directories(*options.dump_dir, error);
-    if (!std::filesystem::is_directory(*options.dump_dir, error))
-        throw InputError("--dump-stages", fmt::format("{} is not a folder and cannot be made one",
-                                                      options.dump_dir->string()));
 }
 
 WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const std::string& device,
@@ -158,7 +149,8 @@ void render(const RenderArguments& arguments) {
     warnOfIgnored(picture.scene);
     takeBackground(arguments.making, picture.scene, options);
     requireMemoryFor(picture.film.crop, options.aovs);
-    makeDumpFolder(options);
+    std::optional<ResultFolder> dump;  // gone where nothing was dumped
+    if (arguments.dump_stages) dump.emplace(*arguments.dump_stages, "--dump-stages");
     const MethodResult result = makePicture(
         arguments, method, {picture.scene, picture.camera, picture.film, filter, options, progress});
     throwIfInterrupted();

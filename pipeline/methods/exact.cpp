@@ -199,6 +199,7 @@ MethodResult runExact(const MethodSpec&, const MethodInput& in) {
     watch.book("weights", result.stages);
     if (in.options.shading.mode == ShadingMode::kHit)
         result.notes.emplace_back("exact has no samples that hit: shaded at the closest point");
+    if (in.options.dump_dir) result.notes.emplace_back("'exact' has no stages to dump");
     result.counts = {{"triangles", in.scene.triangle_count},
                      {"screen_triangles", screen.triangles.size()},
                      {"faces", oracle.faces()}};
