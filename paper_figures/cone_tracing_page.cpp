@@ -10,6 +10,7 @@
 #include "pipeline/compare/kinds_tables.h"
 #include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
+#include "pipeline/json_text.h"
 
 namespace edgewise::figures {
 namespace {
@@ -178,9 +179,13 @@ std::string coneTracingJson(const ConeTracing& found) {
                           {"aim", claim.bar},
                           {"margin", claim.margin ? Json(*claim.margin) : Json()},
                           {"met", claim.met() ? Json(*claim.met()) : Json()}});
-    return Json{{"seconds", found.seconds}, {"runs", found.runs}, {"timed_on", found.timed_on},
-                {"claims", claims},         {"scenes", scenes},   {"notes", found.notes}}
-               .dump(2) +
+    return jsonText(Json{{"seconds", found.seconds},
+                         {"runs", found.runs},
+                         {"timed_on", found.timed_on},
+                         {"claims", claims},
+                         {"scenes", scenes},
+                         {"notes", found.notes}},
+                    2) +
            "\n";
 }
 

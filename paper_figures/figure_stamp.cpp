@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/error.h"
+#include "pipeline/json_text.h"
 #include "pipeline/read_file.h"
 #include "pipeline/scene_folders.h"
 #include "pipeline/sweep/content_hash.h"
@@ -84,10 +85,13 @@ FigureStamp stampOf(const FigureSource& source, double seconds, const std::vecto
 std::string stampText(const FigureStamp& stamp) {
     Json claims = Json::array();
     for (const FigureClaim& claim : stamp.claims) claims.push_back(claimJson(claim));
-    return Json{{"program", stamp.source.program}, {"quick", stamp.source.quick},
-                {"seconds", stamp.seconds},        {"page", stamp.page},
-                {"files", stamp.contents},         {"claims", claims}}
-               .dump(2) +
+    return jsonText(Json{{"program", stamp.source.program},
+                         {"quick", stamp.source.quick},
+                         {"seconds", stamp.seconds},
+                         {"page", stamp.page},
+                         {"files", stamp.contents},
+                         {"claims", claims}},
+                    2) +
            "\n";
 }
 

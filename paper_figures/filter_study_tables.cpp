@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paper_figures/filter_study.h"
+#include "pipeline/json_text.h"
 #include "pipeline/version.h"
 
 namespace edgewise::figures {
@@ -56,7 +57,7 @@ std::string filterStudyJson(const FilterStudy& study) {
     Json json{{"figure", "filter-study"},       {"version", version()},     {"quick", study.quick},
               {"samples_per_px", study.per_px}, {"part_px", study.part_px}, {"rows", Json::array()}};
     for (const FilterRow& row : study.rows) json["rows"].push_back(rowJson(study, row));
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string filterStudyCsv(const FilterStudy& study) {

@@ -5,6 +5,7 @@
 #include "paper_figures/performance.h"
 #include "paper_figures/stage_ideals.h"
 #include "pipeline/compare/comparison_tables.h"
+#include "pipeline/json_text.h"
 #include "pipeline/version.h"
 
 namespace edgewise::figures {
@@ -100,7 +101,7 @@ std::string performanceJson(const Performance& found) {
               {"notes", found.notes}};
     for (const SceneTimes& times : found.scenes) json["scenes"].push_back(sceneJson(times, found.rates));
     for (const GrowthSeries& series : found.growth) json["growth"].push_back(growthJson(series));
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string performanceCsv(const Performance& found) {

@@ -9,6 +9,7 @@
 #include "pipeline/compare/report_page.h"
 #include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
+#include "pipeline/json_text.h"
 #include "pipeline/version.h"
 
 namespace edgewise::figures {
@@ -240,7 +241,7 @@ std::string sphereTracingJson(const SphereTracing& found) {
                                    {"instructions_whole", p.instructions_whole},
                                    {"instructions_pruned", p.instructions_pruned},
                                    {"differing", p.differing}});
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 }  // namespace edgewise::figures

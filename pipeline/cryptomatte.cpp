@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "pipeline/json_text.h"
 #include "pipeline/project.h"
 
 namespace edgewise {
@@ -122,8 +123,7 @@ void CryptomatteLayer::describe(AovImage& image) const {
     image.metadata[key + "/hash"] = "MurmurHash3_32";
     image.metadata[key + "/conversion"] = "uint32_to_float32";
     // A file may hold names that are no UTF-8.
-    image.metadata[key + "/manifest"] =
-        manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    image.metadata[key + "/manifest"] = jsonText(manifest);
 }
 
 bool CryptomatteLayer::rank(const Scene& scene, std::span<const OwnerWeight> owners,

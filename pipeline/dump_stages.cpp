@@ -13,16 +13,6 @@
 namespace edgewise {
 namespace {
 
-/// A colour that tells an owner from its neighbours; the background is black.
-glm::dvec3 ownerColor(Owner owner) {
-    if (owner == kBackground) return glm::dvec3(0.0);
-    const std::uint64_t h = (owner + 1) * 0x9e3779b97f4a7c15ull;
-    const auto channel = [h](int shift) {
-        return 0.1 + 0.8 * static_cast<double>((h >> shift) & 0xff) / 255.0;
-    };
-    return {channel(56), channel(48), channel(40)};
-}
-
 /// Values become grey: 0 is black, the largest white, by their logarithm.
 void normalize(ImageBuffer& picture) {
     double largest = 0.0;
@@ -48,7 +38,17 @@ std::string pointText(const FinePoint& p, glm::dvec2 offset) {
     return fmt::format("{},{},{},{}", p.grid.x - offset.x, p.rest.x, p.grid.y - offset.y, p.rest.y);
 }
 
-/// The layers of a stack front to back, joined by slashes.
+}  // namespace
+
+glm::dvec3 ownerColor(Owner owner) {
+    if (owner == kBackground) return glm::dvec3(0.0);
+    const std::uint64_t h = (owner + 1) * 0x9e3779b97f4a7c15ull;
+    const auto channel = [h](int shift) {
+        return 0.1 + 0.8 * static_cast<double>((h >> shift) & 0xff) / 255.0;
+    };
+    return {channel(56), channel(48), channel(40)};
+}
+
 std::string ownerText(const Owner& owner, const LayerStacks& stacks) {
     std::string text;
     for (const Owner layer : stacks.layersOf(owner)) {
@@ -57,8 +57,6 @@ std::string ownerText(const Owner& owner, const LayerStacks& stacks) {
     }
     return text;
 }
-
-}  // namespace
 
 StageDump::StageDump(const std::optional<std::filesystem::path>& folder, const PixelBox& crop)
     : folder_(folder), crop_(crop) {

@@ -13,6 +13,11 @@
 
 namespace edgewise {
 
+/// A colour that tells a triangle from its neighbours; the background is black.
+glm::dvec3 ownerColor(Owner owner);
+/// The layers of a stack front to back, joined by slashes.
+std::string ownerText(const Owner& owner, const LayerStacks& stacks);
+
 /// Collects what the stages hand over and writes, into its folder:
 ///     plan.csv       stage, runs, why
 ///     screen.csv     the screen triangles: index, vertices, depth plane

@@ -26,4 +26,9 @@ void addFigure(CLI::App& program);
 void addFigures(CLI::App& program);
 void addStability(CLI::App& program, const std::string& command_line);  ///< with the oracle
 
+/// --quiet, of a command that draws no bar and says only what it is asked for.
+inline void acceptQuiet(CLI::App& command) {
+    command.add_flag("--quiet")->description("no progress bar, no chatter: there is none");
+}
+
 }  // namespace edgewise::cli

@@ -12,6 +12,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/exposure_option.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/result_folder.h"
 #include "pipeline/cli/timing_options.h"
@@ -48,7 +49,7 @@ struct CompareArguments {
     MethodArguments making;
     std::string folder, reference = kUsualReference, runs = kUsualRuns, command_line;
     std::vector<std::string> methods;
-    std::optional<std::string> budget;
+    std::optional<std::string> budget, exposure;
     bool resume = false, quiet = false;
 };
 
@@ -73,6 +74,7 @@ void checkMethods(const CompareArguments& arguments) {
     }
     checkAbilities(arguments.making, parseMethod(arguments.reference));
     readFilter(arguments.filter);
+    readExposure(arguments.exposure);
     readMethodOptions(arguments.making);
     findScene(arguments.picture.scene);
 }
@@ -187,6 +189,7 @@ class Study {
     void writePicture(const ImageBuffer& picture, const std::string& name, const std::string& device) {
         WriteOptions options;
         options.width = size_.x, options.height = size_.y;
+        options.exposure_ev = readExposure(arguments_.exposure);
         options.metadata = {{"version", version()},
                             {"command", arguments_.command_line},
                             {"device", device},
@@ -212,9 +215,10 @@ class Study {
     std::filesystem::path memoryOf(std::size_t i) const {
         return folder_ / ("." + fileName(contenders_[i].method) + ".row");
     }
-    /// What a row depends on.
+    /// What a row and its pictures depend on.
     std::string keyOf(std::size_t i) const {
-        std::string key = fmt::format("{} {}", version(), arguments_.reference);
+        std::string key =
+            fmt::format("{} {} {}", version(), arguments_.reference, readExposure(arguments_.exposure));
         for (const std::string& word : contenders_[i].arguments) key += " " + word;
         return oneLine(key);
     }
@@ -304,6 +308,7 @@ void addCompare(CLI::App& program, const std::string& command_line) {
             ->type_name("M");
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
+    addExposureOption(*command, arguments->exposure);
     command->add_option("--budget", arguments->budget, "a method, all its runs [none]")->type_name("SECONDS");
     command->add_option("--runs", arguments->runs, "timed runs a method, after one that is not")
         ->type_name("N")

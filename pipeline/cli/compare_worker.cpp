@@ -15,8 +15,10 @@
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/cli/statistics.h"
 #include "pipeline/compare/raw_image.h"
+#include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
 #include "pipeline/field_mesh.h"
+#include "pipeline/json_text.h"
 #include "pipeline/judge/edge_kinds.h"
 #include "pipeline/judge/silhouette.h"
 #include "pipeline/methods/edge_classes.h"
@@ -56,7 +58,7 @@ class Worker {
         if (what == "check") return check(request);
         if (what == "filter") return refilter(request.at("filter"));
         if (what == "silhouette") return silhouette();
-        compare::writeRaw(request.at("path").get<std::string>(), made_.image);
+        compare::writeRaw(compare::pathFrom(request.at("path")), made_.image);
         return Json::object();
     }
 
@@ -175,7 +177,7 @@ void serve(const WorkerArguments& arguments) {
         } catch (const std::exception& error) {
             reply = failure(error, 1);
         }
-        std::cout << reply.dump() << std::endl;
+        std::cout << jsonText(reply) << std::endl;
     }
 }
 

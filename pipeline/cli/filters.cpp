@@ -8,6 +8,7 @@ namespace edgewise::cli {
 void addFilters(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("filters", "the filters of this build, one a line, with parameters");
+    acceptQuiet(*command);
     command->callback([] {
         for (const std::string& line : describePrefilters()) fmt::print("{}\n", line);
     });

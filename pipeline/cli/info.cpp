@@ -9,6 +9,7 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/field_plan.h"
+#include "pipeline/json_text.h"
 #include "pipeline/plan.h"
 #include "pipeline/progress_bar.h"
 #include "pipeline/project.h"
@@ -195,11 +196,10 @@ void printInWords(const Json& info) {
         if (value.is_array() && value.empty()) {
             fmt::print("{:<8} none\n", name);
         } else if (value.is_array()) {
-            for (const Json& entry : value)
-                fmt::print("{:<8} {}\n", name, entry.dump(-1, ' ', false, Json::error_handler_t::replace));
+            for (const Json& entry : value) fmt::print("{:<8} {}\n", name, jsonText(entry));
         } else if (value.is_object()) {
             for (const auto& [key, entry] : value.items())
-                fmt::print("{:<8} {:<10} {}\n", name, key, entry.dump());
+                fmt::print("{:<8} {:<10} {}\n", name, key, jsonText(entry));
         } else {
             fmt::print("{:<8} {}\n", name, value.get<std::string>());
         }
@@ -210,7 +210,7 @@ void info(const InfoArguments& arguments) {
     ProgressBar quiet(false, interruptFlag());
     const Json json = infoJson(loadPicture(arguments.picture, quiet));
     if (arguments.json)
-        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}\n", jsonText(json, 2));
     else
         printInWords(json);
 }
@@ -223,6 +223,7 @@ void addInfo(CLI::App& program) {
     auto arguments = std::make_shared<InfoArguments>();
     addPictureOptions(*command, arguments->picture);
     command->add_flag("--json", arguments->json, "as JSON; the view matrix by rows, angles in radians");
+    acceptQuiet(*command);
     command->callback([arguments] { info(*arguments); });
 }
 

@@ -23,7 +23,7 @@ void keepFreedMemory() {
 }
 
 constexpr const char* kFooter = R"(
-SCENE is a .gltf or .glb file, or the name of a scene: `edgewise scenes` lists them.
+SCENE is a .gltf, .glb, .sdf.json or .map.glsl file, or the name of a scene: `edgewise scenes` lists them.
 An option that takes several values is repeated: --no-skip interior --no-skip empty.
 
 Exit status: 0 done; 1 it failed (device, memory, a stated limit met); 2 the command line or the input is wrong;

@@ -71,6 +71,7 @@ void addMetrics(CLI::App& program) {
     command->add_option("REFERENCE", arguments->reference, "of the same size")->type_name("")->required();
     command->add_flag("--json", arguments->json, "as JSON; what there is none of is null");
     command->footer(kFooter);
+    acceptQuiet(*command);
     command->callback([arguments] { metrics(*arguments); });
 }
 

@@ -14,6 +14,7 @@
 #include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/error.h"
+#include "pipeline/json_text.h"
 #include "pipeline/judge/mesh_quality.h"
 #include "pipeline/load_scene.h"
 #include "pipeline/polygonize_within.h"
@@ -118,8 +119,8 @@ void polygonizeScene(const PolygonizeArguments& arguments) {
     if (!arguments.no_check) enterStage(options, "look for self-intersections");
     const nlohmann::json record = recordOf(made, distance, !arguments.no_check);
     wipeProgressLine();
-    if (arguments.stats) writeAtomically(*arguments.stats, record.dump(1) + "\n");
-    if (!arguments.quiet) fmt::print("{}\n", record.dump(1));
+    if (arguments.stats) writeAtomically(*arguments.stats, jsonText(record, 1) + "\n");
+    if (!arguments.quiet) fmt::print("{}\n", jsonText(record, 1));
 }
 
 }  // namespace

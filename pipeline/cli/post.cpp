@@ -10,6 +10,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/exposure_option.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/method_options.h"
 #include "pipeline/cli/parse_values.h"
@@ -30,7 +31,7 @@ struct PostArguments {
     std::string image, method, command_line;
     std::vector<std::string> outputs;
     MethodArguments making;  ///< of which --threads
-    std::optional<std::string> stats;
+    std::optional<std::string> exposure, stats;
     bool quiet = false;
 };
 
@@ -64,7 +65,11 @@ void writeOutputs(const PostArguments& arguments, const PictureFile& picture, Pr
     WriteOptions options;
     options.width = picture.width;
     options.height = picture.height;
-    options.metadata = {{"version", version()}, {"command", arguments.command_line}, {"device", "cpu"}};
+    options.exposure_ev = readExposure(arguments.exposure);
+    options.metadata = {{"version", version()},
+                        {"command", arguments.command_line},
+                        {"device", "cpu"},
+                        {"seed", "0"}};  // nothing is drawn by chance
     std::vector<ImageWriter> writers;
     for (const std::string& output : arguments.outputs) {
         writers.emplace_back(output, picture.image.box, picture.image.aov, options);
@@ -83,6 +88,7 @@ void post(const PostArguments& arguments) {
         imageFormat(output);
     }
     if (arguments.stats) checkOutputPath(*arguments.stats);
+    readExposure(arguments.exposure);
     const MethodSpec method = parseMethod(arguments.method);
     if (!method.composed.empty())
         throw InputError(fmt::format("method '{}'", method.typed), "does not compose with other methods");
@@ -96,7 +102,7 @@ void post(const PostArguments& arguments) {
     writeOutputs(arguments, picture, progress);
     result.setup_seconds = process.setup_seconds;
     if (arguments.stats) writeAtomically(*arguments.stats, statisticsJson(result));
-    if (method.parameter("device", "auto") == "vulkan")
+    if (method.has("device", "vulkan"))
         spdlog::warn("'{}' ran on the CPU: it has no Vulkan form", method.name);
 }
 
@@ -118,6 +124,7 @@ void addPost(CLI::App& program, const std::string& command_line) {
         ->type_name("OUT.exr|OUT.png")
         ->required()
         ->allow_extra_args(false);
+    addExposureOption(*command, arguments->exposure);
     command->add_option("--threads", arguments->making.threads, "CPU threads [all]")->type_name("N");
     command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")
         ->type_name("FILE.json");

@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,11 +11,12 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/cli/aov_options.h"
 #include "pipeline/cli/command.h"
+#include "pipeline/cli/exposure_option.h"
 #include "pipeline/cli/filter_options.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/method_options.h"
-#include "pipeline/cli/parse_values.h"
 #include "pipeline/cli/picture_options.h"
+#include "pipeline/cli/result_folder.h"
 #include "pipeline/cli/statistics.h"
 #include "pipeline/cli/strips.h"
 #include "pipeline/error.h"
@@ -28,8 +28,6 @@
 namespace edgewise::cli {
 namespace {
 
-constexpr double kMaxExposureEv = 1000.0;  // 2^1000 is still a double
-
 struct RenderArguments {
     PictureArguments picture;
     FilterArguments filter;
@@ -40,13 +38,6 @@ struct RenderArguments {
     bool explain = false, quiet = false;
     std::string command_line;
 };
-
-double readExposure(const std::optional<std::string>& text) {
-    const double ev = text ? parseNumber("--exposure", *text) : 0.0;
-    if (std::abs(ev) > kMaxExposureEv)
-        throw InputError("--exposure", fmt::format("{} is not within +-{}", ev, kMaxExposureEv));
-    return ev;
-}
 
 /// Absolute first: the part of a relative path that does not exist stays relative.
 std::filesystem::path resolved(const std::string& path) {
@@ -74,16 +65,6 @@ void requireMemoryFor(const PixelBox& crop, const std::set<Aov>& aovs) {
         throw FailureError("memory",
                            fmt::format("a picture of {}x{} needs {:.0f} MiB, this machine has {:.0f}",
                                        crop.width(), crop.height(), needed / 0x1p20, machine / 0x1p20));
-}
-
-/// The folder of --dump-stages exists afterwards.
-void makeDumpFolder(const RenderOptions& options) {
-    if (!options.dump_dir) return;
-    std::error_code error;
-    std::filesystem::create_directories(*options.dump_dir, error);
-    if (!std::filesystem::is_directory(*options.dump_dir, error))
-        throw InputError("--dump-stages", fmt::format("{} is not a folder and cannot be made one",
-                                                      options.dump_dir->string()));
 }
 
 WriteOptions makeWriteOptions(const RenderArguments& arguments, const Film& film, const std::string& device,
@@ -168,7 +149,8 @@ void render(const RenderArguments& arguments) {
     warnOfIgnored(picture.scene);
     takeBackground(arguments.making, picture.scene, options);
     requireMemoryFor(picture.film.crop, options.aovs);
-    makeDumpFolder(options);
+    std::optional<ResultFolder> dump;  // gone where nothing was dumped
+    if (arguments.dump_stages) dump.emplace(*arguments.dump_stages, "--dump-stages");
     const MethodResult result = makePicture(
         arguments, method, {picture.scene, picture.camera, picture.film, filter, options, progress});
     throwIfInterrupted();
@@ -195,7 +177,7 @@ void addRender(CLI::App& program, const std::string& command_line) {
         ->capture_default_str();
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
-    command->add_option("--exposure", arguments->exposure, "PNG only [0]")->type_name("EV");
+    addExposureOption(*command, arguments->exposure);
     command->add_option("--stats", arguments->stats, "stage times, counts, memory, plan")
         ->type_name("FILE.json");
     command

@@ -7,14 +7,14 @@
 
 namespace edgewise::cli {
 
-ResultFolder::ResultFolder(const std::string& name) : path_(name) {
+ResultFolder::ResultFolder(const std::string& name, const std::string& option) : path_(name) {
     std::error_code error;
     made_ = std::filesystem::create_directories(path_, error);
     if (!std::filesystem::is_directory(path_, error))
-        throw InputError("-o", fmt::format("{} is not a folder and cannot be made one", name));
+        throw InputError(option, fmt::format("{} is not a folder and cannot be made one", name));
     // Said before the work, not after it.
     if (access(path_.c_str(), W_OK | X_OK) != 0)
-        throw InputError("-o", fmt::format("{} may not be written to", name));
+        throw InputError(option, fmt::format("{} may not be written to", name));
 }
 
 ResultFolder::~ResultFolder() {

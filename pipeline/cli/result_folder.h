@@ -9,8 +9,8 @@ namespace edgewise::cli {
 /// Made where it is not there; one that this run made and left empty goes away with it.
 class ResultFolder {
   public:
-    /// Throws InputError "-o: WHY" for what is no folder that may be written to.
-    explicit ResultFolder(const std::string& name);
+    /// Throws InputError "OPTION: WHY" for what is no folder that may be written to.
+    explicit ResultFolder(const std::string& name, const std::string& option = "-o");
     ~ResultFolder();
     ResultFolder(const ResultFolder&) = delete;
     ResultFolder& operator=(const ResultFolder&) = delete;

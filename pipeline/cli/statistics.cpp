@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/json_text.h"
 #include "pipeline/methods/mesh_report.h"
 
 namespace edgewise::cli {
@@ -32,7 +33,7 @@ std::string statisticsJson(const MethodResult& result) {
         json["plan"].push_back({{"stage", entry.stage}, {"runs", entry.runs}, {"why", entry.why}});
     if (result.mesh) json["mesh"] = meshJson(result.mesh);
     json["notes"] = result.notes;
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string planInWords(const std::vector<PlanEntry>& plan) {

@@ -12,6 +12,7 @@
 #include "pipeline/cli/picture_options.h"
 #include "pipeline/error.h"
 #include "pipeline/field_mesh.h"
+#include "pipeline/json_text.h"
 #include "pipeline/methods/exact.h"
 #include "pipeline/methods/nsaa.h"
 #include "pipeline/progress_bar.h"
@@ -109,7 +110,7 @@ void weights(const WeightsArguments& arguments) {
     for (const PixelOwner& owner : report.owners) json["weights"].push_back(ownerJson(picture.scene, owner));
     if (arguments.exact)
         addExact({picture.scene, picture.camera, picture.film, filter, options, quiet}, pixel, report, json);
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", jsonText(json, 2));
 }
 
 }  // namespace
@@ -125,6 +126,7 @@ void addWeights(CLI::App& program) {
     command->add_flag("--exact", arguments->exact, "the oracle's weights beside the normal ones");
     addFilterOptions(*command, arguments->filter);
     addMethodOptions(*command, arguments->making);
+    acceptQuiet(*command);
     command->callback([arguments] { weights(*arguments); });
 }
 

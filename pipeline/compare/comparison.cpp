@@ -1,6 +1,5 @@
 #include "pipeline/compare/comparison.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +7,8 @@
 #include <climits>
 #include <fstream>
 #include <thread>
+
+#include "pipeline/methods/resolved_parameters.h"
 
 namespace edgewise::compare {
 
@@ -34,12 +35,7 @@ Spread spreadOf(std::vector<double> values) {
 Row rowOf(const MethodSpec& method, const Prefilter& filter) {
     Row row;
     row.method = method.typed;
-    row.parameters = method.parameters;
-    if (method.number) row.parameters["number"] = fmt::format("{}", *method.number);
-    if (method.mesh) {
-        row.parameters["mesh.error"] = fmt::format("{}", method.mesh->error_px);
-        row.parameters["mesh.mesher"] = method.mesh->mesher;
-    }
+    row.parameters = resolvedParameters(method);
     row.filter = filter.name, row.radius = filter.radius;
     if (filter.kind == KernelKind::kGaussian || filter.kind == KernelKind::kGaussianSeparable)
         row.sigma = filter.sigma;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +59,8 @@ struct MeshReference {
 };
 
 struct Row {
-    std::string method;                             ///< as typed
-    std::map<std::string, std::string> parameters;  ///< resolved
+    std::string method;                                                    ///< as typed
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();  ///< resolvedParameters()
     std::string filter;
     double radius = 0.0;          ///< px
     std::optional<double> sigma;  ///< px; of the Gaussians

@@ -15,6 +15,7 @@
 #include "pipeline/error.h"
 #include "pipeline/html_table.h"
 #include "pipeline/html_text.h"
+#include "pipeline/json_text.h"
 #include "pipeline/read_file.h"
 
 namespace edgewise::compare {
@@ -26,7 +27,7 @@ std::string embedded(const std::filesystem::path& path) {
 
 /// Inside a <script>: nothing in it may end the element.
 std::string scriptJson(const nlohmann::ordered_json& json) {
-    std::string text = json.dump();
+    std::string text = jsonText(json);
     for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
         text.replace(at, 2, "<\\/");
     return text;

@@ -7,6 +7,7 @@
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/compare/kinds_tables.h"
 #include "pipeline/error.h"
+#include "pipeline/json_text.h"
 #include "pipeline/methods/mesh_report.h"
 
 namespace edgewise::compare {
@@ -172,7 +173,7 @@ std::string comparisonJson(const Comparison& c) {
                                   {"few_edges_slope", orNull(s.few_edges_slope)},
                                   {"samples", {s.least, s.most}},
                                   {"rows", s.rows}});
-    return json.dump(2) + "\n";
+    return jsonText(json, 2) + "\n";
 }
 
 std::string csvColumns() {
@@ -214,7 +215,7 @@ std::string rowToText(const Row& row) {
     Json json = rowJson(row);
     json["seconds"] = row.seconds, json["setup_seconds"] = row.setup_seconds, json["stages"] = row.stages;
     json["signed_map"] = row.signed_map, json["absolute_map"] = row.absolute_map;
-    return json.dump() + "\n";
+    return jsonText(json) + "\n";
 }
 
 Row rowFromText(const std::string& text) {

@@ -1,5 +1,7 @@
 #include "pipeline/compare/error_slope.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,8 +14,15 @@ struct LogPoint {
     double samples, error;
 };
 
+/// None for methods that take no number.
+std::optional<int> numberOf(const Row& row) {
+    const auto number = row.parameters.find("number");
+    if (number == row.parameters.end() || !number->is_number_integer()) return std::nullopt;
+    return number->get<int>();
+}
+
 double samplesOf(const Row& row) {
-    const double number = std::stod(row.parameters.at("number"));
+    const double number = numberOf(row).value();
     return row.method.starts_with("ssaa") ? number * number : number;
 }
 
@@ -53,17 +62,18 @@ struct Family {
 }  // namespace
 
 std::string familyOf(const Row& row) {
-    const auto number = row.parameters.find("number");
-    if (number == row.parameters.end()) return row.method;
-    const std::size_t at = row.method.find(":" + number->second);
+    const std::optional<int> number = numberOf(row);
+    if (!number) return row.method;
+    const std::string typed = fmt::format(":{}", *number);
+    const std::size_t at = row.method.find(typed);
     if (at == std::string::npos) return row.method;
-    return row.method.substr(0, at) + ":N" + row.method.substr(at + 1 + number->second.size());
+    return row.method.substr(0, at) + ":N" + row.method.substr(at + typed.size());
 }
 
 std::vector<ErrorSlope> errorSlopes(const std::vector<Row>& rows) {
     std::map<std::string, Family> families;
     for (const Row& row : rows)
-        if (row.parameters.contains("number") && row.error) families[familyOf(row)].add(row);
+        if (numberOf(row) && row.error) families[familyOf(row)].add(row);
     std::vector<ErrorSlope> slopes;
     for (const auto& [name, family] : families) {
         const std::optional<double> slope = fitted(family.all);

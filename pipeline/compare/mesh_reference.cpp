@@ -82,7 +82,7 @@ ImageBuffer MeshReferenceMaker::pictureOf(std::size_t level, const Json& filter,
     takeFacts(reply, row);
     facts_.levels[level].mesh = row.mesh.value_or(MeshReport{});
     const ScopedPath file = temporaryFile(scratch_);
-    worker.ask({{"do", "save"}, {"path", file.path().string()}}, kWhatItTakes, progress);
+    worker.ask({{"do", "save"}, {"path", pathJson(file.path())}}, kWhatItTakes, progress);
     return readRaw(file.path());
 }
 

@@ -40,7 +40,7 @@ class Turn {
             ImageBuffer picture;
             {  // the file is gone before the judging, which takes its time
                 const ScopedPath file = temporaryFile(options.scratch);
-                worker_->ask({{"do", "save"}, {"path", file.path().string()}}, std::chrono::hours(24),
+                worker_->ask({{"do", "save"}, {"path", pathJson(file.path())}}, std::chrono::hours(24),
                              progress);
                 picture = readRaw(file.path());
             }
@@ -156,7 +156,7 @@ class ReferenceWorker {
     /// Of the last run or check.
     ImageBuffer picture() {
         const ScopedPath file = temporaryFile(scratch_);
-        ask({{"do", "save"}, {"path", file.path().string()}});
+        ask({{"do", "save"}, {"path", pathJson(file.path())}});
         return readRaw(file.path());
     }
 

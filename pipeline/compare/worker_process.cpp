@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "pipeline/error.h"
+#include "pipeline/json_text.h"
 
 namespace edgewise::compare {
 namespace {
@@ -87,6 +88,16 @@ struct WorkerProcess::State {
     }
 };
 
+nlohmann::json pathJson(const std::filesystem::path& path) {
+    const std::string& bytes = path.native();
+    return std::vector<unsigned char>(bytes.begin(), bytes.end());
+}
+
+std::filesystem::path pathFrom(const nlohmann::json& json) {
+    const auto bytes = json.get<std::vector<unsigned char>>();
+    return std::string(bytes.begin(), bytes.end());
+}
+
 WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments)
     : state_(std::make_unique<State>(arguments)) {}
 WorkerProcess::WorkerProcess(WorkerProcess&&) noexcept = default;
@@ -99,7 +110,7 @@ nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::du
                                   Progress& progress) {
     const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::min(at_most, std::chrono::duration<double>(1e7)));
-    state_->to << request.dump() << std::endl;
+    state_->to << jsonText(request) << std::endl;
     std::string line;
     if (!state_->readLine(line, until, progress)) throw WorkerTimeout();
     nlohmann::json reply = nlohmann::json::parse(line);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -23,6 +24,10 @@ struct WorkerFailure : std::runtime_error {
         : std::runtime_error(message), status(exit_status) {}
     int status;  ///< of the contract
 };
+
+/// A path as a request has it: by bytes, since JSON's text is UTF-8 and a path need not be.
+nlohmann::json pathJson(const std::filesystem::path& path);
+std::filesystem::path pathFrom(const nlohmann::json& json);
 
 class WorkerProcess {
   public:

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/html_text.h"
+#include "pipeline/json_text.h"
 #include "pipeline/judge/stability_cases.h"
 #include "pipeline/judge/stability_plot.h"
 #include "pipeline/plot_colors.h"
@@ -267,7 +268,7 @@ void flatten(const Json& json, const std::string& prefix, std::vector<std::pair<
 /// Quoted where a comma is in it: `bc:1,0`.
 std::string csvCell(const Json& value) {
     if (value.is_null()) return "";
-    if (!value.is_string()) return value.dump();
+    if (!value.is_string()) return jsonText(value);
     const auto text = value.get<std::string>();
     return text.find_first_of(",\"\n") == std::string::npos ? text : '"' + text + '"';
 }
@@ -297,7 +298,7 @@ std::string mapColumns(const StabilityRow& r) {
 std::string stabilityJson(const Rows& rows, const std::string& command) {
     Json json{{"command", command}, {"version", version()}, {"rows", Json::array()}};
     for (const StabilityRow& row : rows) json["rows"].push_back(rowJson(row));
-    return json.dump(1) + "\n";
+    return jsonText(json, 1) + "\n";
 }
 
 std::string stabilityCsv(const Rows& rows) {

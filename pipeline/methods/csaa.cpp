@@ -42,6 +42,7 @@ class CoverageStages : public CpuSampledStages {
 
     void render(SampledFrame& frame, const PixelBox& part) override {
         SampledOwners sampled = owners(frame, frame.windowOf(part));
+        frame.dumpSamples(part, sampled);
         unknown_ += forgetUnstored(sampled.owner);
         frame.watch.book("visibility", frame.result.stages);
         frame.filter(part, std::move(sampled));

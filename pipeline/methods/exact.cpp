@@ -1,5 +1,5 @@
-// The oracle as a method: the same scene, shading and blending as nsaa, but weights from the exact visible
-// map.
+// The oracle as a method: the same scene, shading (at the same points) and blending as nsaa, but weights from
+// the exact visible map.
 #include "pipeline/methods/exact.h"
 
 #include <fmt/format.h>
@@ -7,9 +7,13 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "analytic/exact/kernel_weights.h"
 #include "pipeline/error.h"
+#include "pipeline/methods/nsaa_cpu.h"
 #include "pipeline/methods/registry.h"
 #include "pipeline/methods/stopwatch.h"
 #include "pipeline/shade.h"
@@ -87,18 +91,65 @@ double ulpOf(double x) {
     return next - std::abs(x);
 }
 
+/// Where nsaa shades each owner of each pixel.
+class PointCollector : public CpuStages {
+  public:
+    explicit PointCollector(const PixelBox& crop) : crop_(crop) {
+        points_.resize(static_cast<std::size_t>(crop.width()) * crop.height());
+    }
+
+    /// From the pixel's sample; none: the closest point.
+    std::span<const glm::dvec2> of(Owner owner, int x, int y) const {
+        const auto& pixel = points_[indexOf(x, y)];
+        const auto found = pixel.find(owner);
+        return found == pixel.end() ? std::span<const glm::dvec2>() : found->second;
+    }
+
+  private:
+    std::size_t indexOf(int x, int y) const {
+        return static_cast<std::size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
+    }
+
+    /// From any thread: no two tiles share a pixel.
+    void finishTile(NsaaFrame&, const BandOwners&, WeightTile& tile) override {
+        std::size_t pixel = 0;
+        for (int y = tile.box.y0; y < tile.box.y1; ++y)
+            for (int x = tile.box.x0; x < tile.box.x1; ++x, ++pixel)
+                for (std::size_t e = tile.offset[pixel]; e < tile.offset[pixel + 1]; ++e) {
+                    const auto offsets = tile.points.of(e);
+                    points_[indexOf(x, y)][tile.entries[e].owner].assign(offsets.begin(), offsets.end());
+                }
+    }
+
+    PixelBox crop_;
+    std::vector<std::map<Owner, std::vector<glm::dvec2>>> points_;  ///< by pixel
+};
+
+/// The same points as nsaa's, so that pictures differ by their weights alone; none where the mode has none.
+std::optional<PointCollector> nsaaPoints(const MethodInput& in) {
+    const ShadingMode mode = in.options.shading.mode;
+    if (mode != ShadingMode::kCentroid && mode != ShadingMode::kSamples) return std::nullopt;
+    RenderOptions options = in.options;
+    options.dump_dir.reset();
+    const MethodInput same{in.scene, in.camera, in.film, in.filter, options, in.progress};
+    std::optional<PointCollector> points(in.film.crop);
+    NsaaFrame frame(same);
+    frame.plan.classes.representative.clear();  // every owner has its own points
+    frame.render(*points);
+    return points;
+}
+
 class Colours {
   public:
-    Colours(const MethodInput& in, const Shading& shading) : in_(in), shading_(shading) {}
+    Colours(const MethodInput& in, const Shading& shading, const PointCollector* points)
+        : in_(in), shading_(shading), points_(points) {}
 
     void blend(const std::map<Owner, Real>& weights, int x, int y, ImageBuffer& image) const {
         glm::dvec3 color(0.0), low(HUGE_VAL), high(-HUGE_VAL);
         Real covered = 0;
         for (const auto& [owner, weight] : weights) {
             const bool behind = owner == kBackground;
-            const glm::dvec3 c = behind
-                                     ? in_.options.background
-                                     : shade(owner, glm::dvec2(x + 0.5, y + 0.5) + in_.film.debug_offset_px);
+            const glm::dvec3 c = behind ? in_.options.background : shade(owner, x, y);
             color += static_cast<double>(weight) * c;
             if (!behind) covered += weight;
             low = glm::min(low, c), high = glm::max(high, c);
@@ -109,12 +160,15 @@ class Colours {
     }
 
   private:
-    glm::dvec3 shade(Owner owner, glm::dvec2 sample_px) const {
-        return shading_.closest(owner, sample_px).color;
+    glm::dvec3 shade(Owner owner, int x, int y) const {
+        const glm::dvec2 sample_px = glm::dvec2(x + 0.5, y + 0.5) + in_.film.debug_offset_px;
+        if (points_ == nullptr) return shading_.closest(owner, sample_px).color;
+        return shading_.mean(owner, sample_px, points_->of(owner, x, y)).color;
     }
 
     const MethodInput& in_;
     const Shading& shading_;
+    const PointCollector* points_;
 };
 
 }  // namespace
@@ -123,15 +177,16 @@ MethodResult runExact(const MethodSpec&, const MethodInput& in) {
     MethodResult result;
     Stopwatch watch;
     ScreenPieces pieces;
-    if (!in.options.aovs.empty())
-        throw FailureError("--aov", "exact has none; nsaa, ssaa and none have them");
+    if (!in.options.aovs.empty()) throw InputError("--aov", "exact has none; nsaa, ssaa and none have them");
     const ScreenScene screen = project(in.scene, in.camera, in.film, pieces, in.progress);
     const Shading shading(in.scene, in.camera, in.film, screen, pieces);
     watch.book("project", result.stages);
     checkCancelled(in.progress);
     const Oracle oracle(screen, in.film.crop, in.film.debug_offset_px, in.filter);
     watch.book("visibility", result.stages);
-    const Colours colours(in, shading);
+    const std::optional<PointCollector> points = nsaaPoints(in);
+    watch.book("points", result.stages);
+    const Colours colours(in, shading, points ? &*points : nullptr);
     result.image = ImageBuffer(in.film.crop);
     in.progress.stage("exact weights", in.film.crop.height());
     tbb::parallel_for(in.film.crop.y0, in.film.crop.y1, [&](int y) {
@@ -142,6 +197,9 @@ MethodResult runExact(const MethodSpec&, const MethodInput& in) {
         in.progress.advance(1);
     });
     watch.book("weights", result.stages);
+    if (in.options.shading.mode == ShadingMode::kHit)
+        result.notes.emplace_back("exact has no samples that hit: shaded at the closest point");
+    if (in.options.dump_dir) result.notes.emplace_back("'exact' has no stages to dump");
     result.counts = {{"triangles", in.scene.triangle_count},
                      {"screen_triangles", screen.triangles.size()},
                      {"faces", oracle.faces()}};

@@ -33,17 +33,15 @@ sdf::Relaxation relaxationOf(const std::string& name) {
 FieldSettings settingsOf(const MethodSpec& spec) {
     FieldSettings settings;
     sdf::TraceSettings& t = settings.trace;
-    const auto isOn = [&](const char* key, bool fallback) {
-        return spec.parameter(key, fallback ? "on" : "off") == "on";
-    };
-    t.relaxation = relaxationOf(spec.parameter("relax", "auto"));
-    t.omega = spec.numberOf("omega", t.omega);
-    t.screen_candidate = spec.parameter("candidate", "screen") == "screen";
-    t.discontinuity_steps = static_cast<int>(spec.numberOf("discontinuity", t.discontinuity_steps));
-    t.threshold = spec.numberOf("threshold", t.threshold);
-    t.most_steps = static_cast<int>(spec.numberOf("steps", t.most_steps));
-    t.prepass = isOn("prepass", t.prepass), t.prune = isOn("prune", t.prune);
-    t.convex = isOn("convex", t.convex), t.level_set = isOn("level-set", t.level_set);
+    const auto isOn = [&](const char* key) { return spec.parameter(key) == "on"; };
+    t.relaxation = relaxationOf(spec.parameter("relax"));
+    t.omega = spec.numberOf("omega");
+    t.screen_candidate = spec.parameter("candidate") == "screen";
+    t.discontinuity_steps = static_cast<int>(spec.numberOf("discontinuity"));
+    t.threshold = spec.numberOf("threshold");
+    t.most_steps = static_cast<int>(spec.numberOf("steps"));
+    t.prepass = isOn("prepass"), t.prune = isOn("prune");
+    t.convex = isOn("convex"), t.level_set = isOn("level-set");
     return settings;
 }
 
@@ -91,14 +89,14 @@ MethodResult filteredPicture(const PostProcess& process, const MethodSpec& spec,
 sdf::ConeSettings conesOf(const MethodSpec& spec) {
     sdf::ConeSettings cones;
     cones.relaxed = spec.name == "ctss-r";
-    cones.coverage = spec.numberOf("coverage", cones.coverage);
-    cones.alpha = spec.numberOf("alpha", cones.alpha);
-    cones.four_by_eight = spec.parameter("mask", "6x6") == "4x8";
-    cones.uniform = spec.parameter("weights", "visibility") == "uniform";
-    cones.backtrace = spec.parameter("backtrace", "on") == "on";
-    cones.visible = static_cast<int>(spec.numberOf("visible", cones.visible));
-    cones.shade_at_once = spec.parameter("shade", "delayed") == "asap";
-    cones.normalize_sky = spec.parameter("sky", "mask") == "normalize";
+    cones.coverage = spec.numberOf("coverage");
+    cones.alpha = spec.numberOf("alpha");
+    cones.four_by_eight = spec.parameter("mask") == "4x8";
+    cones.uniform = spec.parameter("weights") == "uniform";
+    cones.backtrace = spec.parameter("backtrace") == "on";
+    cones.visible = static_cast<int>(spec.numberOf("visible"));
+    cones.shade_at_once = spec.parameter("shade") == "asap";
+    cones.normalize_sky = spec.parameter("sky") == "normalize";
     return cones;
 }
 
@@ -137,7 +135,7 @@ MethodResult traceCtssX(const MethodSpec& spec, const MethodInput& in, const Fie
     settings.trace.threshold = 1.0 / 64.0;
     // Steps of the distance alone, down to where it is a hit: its place must be as good as a ray's.
     settings.cones->alpha = settings.trace.threshold / std::sqrt(2.0);
-    if (spec.parameter("weights", "box") == "box") return tracePixels(all, settings, coneXMaker(make));
+    if (spec.parameter("weights") == "box") return tracePixels(all, settings, coneXMaker(make));
     settings.keep_parts = true;
     return traceParts(all, settings, coneXMaker(make));
 }

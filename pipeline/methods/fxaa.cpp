@@ -185,7 +185,7 @@ int reachOf(const Steps& steps) {
 }  // namespace
 
 PostProcess makeFxaa(const MethodSpec& spec) {
-    const Steps steps = stepsOf(spec.parameter("preset", "12"));
+    const Steps steps = stepsOf(spec.parameter("preset"));
     return {.reach_px = reachOf(steps),
             .apply = [steps](ImageBuffer& image, Progress& progress, auto& stages) {
                 applyFxaa(steps, image, progress, stages);

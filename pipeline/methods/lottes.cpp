@@ -17,13 +17,12 @@ namespace {
 
 LottesSettings settingsOf(const MethodSpec& spec) {
     LottesSettings settings;
-    settings.distance = spec.numberOf("distance", settings.distance);
-    settings.scale = spec.numberOf("scale", settings.scale);
-    settings.grain = spec.numberOf("grain", settings.grain);
-    settings.disk = spec.parameter("weights", "gaussian") == "disk";
-    settings.spectrum =
-        spec.parameter("spectrum", "blue") == "white" ? GrainSpectrum::kWhite : GrainSpectrum::kBlue;
-    settings.coverage = spec.parameter("coverage", "on") == "on";
+    settings.distance = spec.numberOf("distance");
+    settings.scale = spec.numberOf("scale");
+    settings.grain = spec.numberOf("grain");
+    settings.disk = spec.parameter("weights") == "disk";
+    settings.spectrum = spec.parameter("spectrum") == "white" ? GrainSpectrum::kWhite : GrainSpectrum::kBlue;
+    settings.coverage = spec.parameter("coverage") == "on";
     return settings;
 }
 

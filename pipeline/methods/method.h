@@ -113,17 +113,19 @@ struct MethodSpec {
     std::string typed;
     std::string name;
     std::optional<int> number;
-    std::map<std::string, std::string> parameters;
-    std::vector<MethodSpec> composed;  ///< what follows each '+', in order
-    std::optional<MeshChoice> mesh;    ///< mesh+: SDF scenes are polygonized first
+    std::map<std::string, std::string> parameters;  ///< all, typed or not; device only where it is typed
+    std::vector<MethodSpec> composed;               ///< what follows each '+', in order
+    std::optional<MeshChoice> mesh;                 ///< mesh+: SDF scenes are polygonized first
 
-    /// The parameter's value, or the fallback.
-    std::string parameter(const std::string& key, const std::string& fallback) const {
-        const auto found = parameters.find(key);
-        return found == parameters.end() ? fallback : found->second;
-    }
+    /// The value of a parameter that the method has.
+    const std::string& parameter(const std::string& key) const { return parameters.at(key); }
     /// The same of a number, which parseMethod() has checked.
-    double numberOf(const std::string& key, double fallback) const;
+    double numberOf(const std::string& key) const;
+    /// Whether the method has the parameter, with this value.
+    bool has(const std::string& key, std::string_view value) const {
+        const auto found = parameters.find(key);
+        return found != parameters.end() && found->second == value;
+    }
 };
 
 /// Throws InputError for an unknown method, parameter or value, a missing, superfluous or impossible number.
@@ -159,9 +161,16 @@ struct FieldSettings;
 using FieldTracerMaker =
     std::function<std::unique_ptr<FieldTracer>(const MethodInput&, const FieldSettings&)>;
 
+/// Words that a parameter may be.
+struct WordChoice {
+    std::vector<std::string> words;
+    std::string usual;  ///< where nothing is typed
+};
+
 /// Numbers that a parameter may be, ends included.
 struct NumberRange {
     double low = 0.0, high = 1.0;
+    double usual = 0.0;  ///< where nothing is typed
     bool whole = false;
 };
 
@@ -171,14 +180,13 @@ struct MethodEntry {
     std::string name;
     std::string summary;
     Number number = Number::kAbsent;
-    int smallest = 1, largest = 64;  ///< of the number
-    bool own_box = false;            ///< takes no --filter
-    bool needs_triangles = false;    ///< SDF scenes are polygonized first
-    std::string composes_with = {};  ///< name+THIS:K; empty: it stands alone
-    std::vector<int> numbers = {};   ///< all that it may be; empty: any from smallest to largest
-    std::map<std::string, std::vector<std::string>>
-        choices;                                     ///< parameter -> what it may be; device is added to all
-    std::map<std::string, NumberRange> ranges = {};  ///< parameter -> which numbers it may be
+    int smallest = 1, largest = 64;             ///< of the number
+    bool own_box = false;                       ///< takes no --filter
+    bool needs_triangles = false;               ///< SDF scenes are polygonized first
+    std::string composes_with = {};             ///< name+THIS:K; empty: it stands alone
+    std::vector<int> numbers = {};              ///< all that it may be; empty: any from smallest to largest
+    std::map<std::string, WordChoice> choices;  ///< by parameter; device is added to all
+    std::map<std::string, NumberRange> ranges = {};      ///< by parameter
     std::map<std::string, std::string> host_alone = {};  ///< parameter -> what has no Vulkan form
     MethodResult (*run)(const MethodSpec&, const MethodInput&) = nullptr;
     MethodResult (*run_vulkan)(const MethodSpec&,

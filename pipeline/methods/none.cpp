@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include "pipeline/composite.h"
+#include "pipeline/dump_samples.h"
 #include "pipeline/methods/aov_report.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/registry.h"
@@ -9,6 +10,23 @@
 #include "pipeline/shade.h"
 
 namespace edgewise {
+
+namespace {
+
+void dumpSamples(const MethodInput& in, const ScreenScene& screen, const SampledOwners& sampled) {
+    const PixelBox& crop = in.film.crop;
+    SampleDump dump(in.options.dump_dir, crop, screen);
+    if (!dump.active()) return;
+    const glm::dvec2 centre(0.5);
+    for (int y = crop.y0; y < crop.y1; ++y)
+        for (int x = crop.x0; x < crop.x1; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y - crop.y0) * crop.width() + (x - crop.x0);
+            dump.pixel(x, y, {&centre, 1}, {&sampled.owner[i], 1}, sampled.stacks);
+        }
+    dump.finish();
+}
+
+}  // namespace
 
 MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     MethodResult result;
@@ -22,6 +40,7 @@ MethodResult runNone(const MethodSpec&, const MethodInput& in) {
     const PointSampler sampler(screen, in.film.crop, 1);
     const SampledOwners sampled = sampler.sample(in.film.crop);
     watch.book("visibility", result.stages);
+    dumpSamples(in, screen, sampled);
     checkCancelled(in.progress);
     result.image = ImageBuffer(in.film.crop);
     const AovPass aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading);

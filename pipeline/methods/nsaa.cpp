@@ -10,7 +10,7 @@ namespace edgewise {
 
 MethodResult runNsaa(const MethodSpec& spec, const MethodInput& input) {
     CpuStages stages;
-    return NsaaFrame(input, spec.parameter("visibility", "slab") == "awj13").render(stages);
+    return NsaaFrame(input, spec.parameter("visibility") == "awj13").render(stages);
 }
 
 PixelReport pixelWeights(const MethodInput& input, int x, int y) {

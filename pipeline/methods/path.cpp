@@ -87,6 +87,7 @@ MethodResult tracePath(const MethodSpec& spec, const MethodInput& in, const Fiel
     sdf::RayCounts all;
     for (const sdf::RayCounts& one : counts) all += one;
     countRays(all, result.counts);
+    if (in.options.dump_dir) result.notes.emplace_back("'path' has no stages to dump");
     return result;
 }
 

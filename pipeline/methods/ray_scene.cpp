@@ -133,8 +133,10 @@ class PacketTracer {
             packet_.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
         trace(scene_.opaque_.get());
-        for (int lane = 0; lane < count_; ++lane)
-            if (out_[lane] != nullptr) *out_[lane] = ownerOf(lane);
+        for (int lane = 0; lane < count_; ++lane) {
+            end_[lane] = endOf(lane);
+            if (out_[lane] != nullptr) *out_[lane] = end_[lane] != nullptr ? end_[lane]->owner : kBackground;
+        }
         if (scene_.see_through_ != nullptr) addPanes(stacks);
         count_ = 0;
     }
@@ -147,27 +149,26 @@ class PacketTracer {
 
     bool hit(int lane) const { return packet_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID; }
 
-    const ScreenTriangle& opaqueAt(int lane) const {
-        return scene_.screen_.triangles[scene_.triangles_.opaque.triangle[packet_.hit.primID[lane]]];
+    /// The opaque triangle that ends the view; null: none does.
+    const ScreenTriangle* endOf(int lane) const {
+        if (!hit(lane)) return nullptr;
+        const std::uint32_t nearest = scene_.triangles_.opaque.triangle[packet_.hit.primID[lane]];
+        return &scene_.screen_.triangles[scene_.ties_.seenAt(nearest, at_px_[lane])];
     }
-
-    Owner ownerOf(int lane) const { return hit(lane) ? opaqueAt(lane).owner : kBackground; }
 
     /// Again through what is see-through, as far as the opaque triangle and a little farther: which are in
     /// front the depth planes say.
     void addPanes(LayerStacks& stacks) {
-        std::array<const ScreenTriangle*, kWidth> end{};
         for (int lane = 0; lane < count_; ++lane) {
             panes_[lane].clear();
             if (!hit(lane)) continue;
-            end[lane] = &opaqueAt(lane);
             packet_.ray.tfar[lane] *= kBehind;
             packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
         }
         trace(scene_.see_through_.get());
         for (int lane = 0; lane < count_; ++lane)
             if (!panes_[lane].empty() && out_[lane] != nullptr)
-                *out_[lane] = stackOf(lane, at_px_[lane], end[lane], stacks);
+                *out_[lane] = stackOf(lane, at_px_[lane], end_[lane], stacks);
     }
 
     struct Pane {
@@ -214,6 +215,7 @@ class PacketTracer {
     int count_ = 0;  ///< lanes that are filled
     std::array<glm::dvec2, kWidth> at_px_;
     std::array<Owner*, kWidth> out_;
+    std::array<const ScreenTriangle*, kWidth> end_{};  ///< where each lane's view ends
     alignas(64) std::array<int, kWidth> valid_;
     PaneContext panes_context_;
     std::array<std::vector<std::uint32_t>, kWidth> panes_;
@@ -225,6 +227,7 @@ class PacketTracer {
 RayScene::RayScene(const ScreenScene& screen, const Film& film, bool perspective, int margin_px)
     : screen_(screen),
       triangles_(viewTriangles(screen, film, perspective, margin_px)),
+      ties_(screen),
       device_(newDevice()),
       opaque_(newScene(device_.get(), triangles_.opaque, nullptr)),
       see_through_(newScene(device_.get(), triangles_.see_through, notePanes)) {}

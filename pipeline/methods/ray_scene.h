@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "pipeline/methods/coplanar_ties.h"
 #include "pipeline/methods/point_samples.h"
 #include "pipeline/methods/view_triangles.h"
 #include "pipeline/pixel_patterns.h"
@@ -20,10 +21,10 @@ using EmbreeDevice = std::unique_ptr<RTCDeviceTy, ReleaseEmbree>;
 using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseEmbree>;
 
 /// What Embree decides is float32's: an edge may lie 2^-24 of the film's half side from its place, and where
-/// depths are equal or nearly so any of the triangles may win, the same one each time. The order of
-/// see-through layers among themselves and against what ends the view is the depth planes', in double, equal
-/// planes by index. Packets are cut from pixels that lie where they lie whatever is asked for: threads, tiles
-/// and crops do not show.
+/// different planes are as deep or nearly so any of their triangles may win, the same one each time. Of
+/// triangles that share a plane the lowest index does (CoplanarTies). The order of see-through layers among
+/// themselves and against what ends the view is the depth planes', in double, equal planes by index. Packets
+/// are cut from pixels that lie where they lie whatever is asked for: threads, tiles and crops do not show.
 class RayScene {
   public:
     /// Builds the trees; refers to the scene. Throws FailureError where Embree fails.
@@ -45,6 +46,7 @@ class RayScene {
 
     const ScreenScene& screen_;
     ViewScene triangles_;
+    CoplanarTies ties_;
     EmbreeDevice device_;
     EmbreeScene opaque_, see_through_;
     mutable std::mutex stacks_mutex_;

@@ -10,6 +10,9 @@
 
 #include "pipeline/device_error.h"
 #include "pipeline/field_mesh.h"
+#include "pipeline/methods/lottes.h"
+#include "sdf/cone_trace.h"
+#include "sdf/trace_settings.h"
 
 namespace edgewise {
 namespace {
@@ -22,7 +25,11 @@ constexpr decltype(MethodEntry::run) kMsaaVulkan = nullptr, kNoneVulkan = nullpt
                                      kSsaaVulkan = nullptr;
 #endif
 
-const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"}, kSwitch{"on", "off"};
+const std::vector<std::string> kDevices{"auto", "cpu", "vulkan"};
+
+WordChoice onOff(bool usual) {
+    return {{"on", "off"}, usual ? "on" : "off"};
+}
 
 const MethodEntry* findMethod(std::string_view name) {
     const auto& registry = methodRegistry();
@@ -75,13 +82,6 @@ void takeNumber(std::string_view text, const MethodEntry& entry, MethodSpec& spe
     spec.number = value;
 }
 
-std::optional<double> numberIn(std::string_view text) {
-    double value = 0.0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 std::string rangeWords(const NumberRange& range) {
     return fmt::format("{}..{}", range.low, range.high);
 }
@@ -109,7 +109,7 @@ void takeParameter(std::string_view key, std::string_view value, const MethodEnt
     const bool takes_device = key == "device" && entry.name != "mesh";
     if (!takes_device && known == entry.choices.end())
         fail(spec.typed, fmt::format("'{}' has no parameter '{}'", entry.name, key));
-    const std::vector<std::string>& choices = takes_device ? kDevices : known->second;
+    const std::vector<std::string>& choices = takes_device ? kDevices : known->second.words;
     if (std::find(choices.begin(), choices.end(), value) == choices.end())
         fail(spec.typed, fmt::format("{} is {}, not '{}'", key, fmt::join(choices, " or "), value));
     if (!spec.parameters.emplace(key, value).second) fail(spec.typed, fmt::format("{} is given twice", key));
@@ -125,6 +125,13 @@ void takeParts(std::string_view text, const MethodEntry& entry, MethodSpec& spec
     }
 }
 
+/// What nobody typed has its usual value.
+void fillIn(const MethodEntry& entry, MethodSpec& spec) {
+    for (const auto& [key, choice] : entry.choices) spec.parameters.emplace(key, choice.usual);
+    for (const auto& [key, range] : entry.ranges)
+        spec.parameters.emplace(key, fmt::format("{}", range.usual));
+}
+
 MethodSpec parseOne(std::string_view typed) {
     MethodSpec spec;
     spec.typed = typed;
@@ -134,15 +141,17 @@ MethodSpec parseOne(std::string_view typed) {
     if (colon != std::string_view::npos) takeParts(typed.substr(colon + 1), entry, spec);
     if (entry.number == MethodEntry::Number::kRequired && !spec.number)
         fail(typed, fmt::format("needs a number, as in '{}:4'", entry.name));
+    fillIn(entry, spec);
     return spec;
 }
 
 /// What stands before methods that a mesh is made for.
 const MethodEntry& meshEntry() {
-    static const MethodEntry entry{.name = "mesh",
-                                   .summary = "SDF scenes: mesh+M is M on a mesh, within `error` of a pixel",
-                                   .choices = {{"mesher", {"dual", "marching-cubes", "cgal"}}},
-                                   .ranges = {{"error", {0.001, 100}}}};
+    static const MethodEntry entry{
+        .name = "mesh",
+        .summary = "SDF scenes: mesh+M is M on a mesh, within `error` of a pixel",
+        .choices = {{"mesher", {{"dual", "marching-cubes", "cgal"}, MeshChoice().mesher}}},
+        .ranges = {{"error", {0.001, 100, MeshChoice().error_px}}}};
     return entry;
 }
 
@@ -155,11 +164,9 @@ std::optional<MeshChoice> takeMesh(std::string_view typed, std::vector<std::stri
     MethodSpec spec;
     spec.typed = typed;
     if (colon != std::string_view::npos) takeParts(first.substr(colon + 1), meshEntry(), spec);
+    fillIn(meshEntry(), spec);
     parts.erase(parts.begin());
-    MeshChoice choice;
-    choice.error_px = spec.numberOf("error", choice.error_px);
-    choice.mesher = spec.parameter("mesher", choice.mesher);
-    return choice;
+    return MeshChoice{spec.numberOf("error"), spec.parameter("mesher")};
 }
 
 std::string describe(const MethodEntry& entry) {
@@ -167,8 +174,8 @@ std::string describe(const MethodEntry& entry) {
     if (entry.number == MethodEntry::Number::kRequired)
         parameters.push_back(entry.numbers.empty() ? fmt::format("{}..{}", entry.smallest, entry.largest)
                                                    : fmt::format("{}", fmt::join(entry.numbers, "|")));
-    for (const auto& [key, choices] : entry.choices)
-        parameters.push_back(fmt::format("{}={}", key, fmt::join(choices, "|")));
+    for (const auto& [key, choice] : entry.choices)
+        parameters.push_back(fmt::format("{}={}", key, fmt::join(choice.words, "|")));
     for (const auto& [key, range] : entry.ranges)
         parameters.push_back(fmt::format("{}={}", key, rangeWords(range)));
     if (entry.name != "mesh") parameters.push_back(fmt::format("device={}", fmt::join(kDevices, "|")));
@@ -180,22 +187,27 @@ std::string describe(const MethodEntry& entry) {
 namespace {
 
 MethodEntry coneEntry(const std::string& name, const std::string& summary) {
+    const sdf::ConeSettings usual;
     return {.name = name,
             .summary = summary,
             .own_box = true,
             .composes_with = "ssaa",
-            .choices = {{"mask", {"6x6", "4x8"}},
-                        {"weights", {"visibility", "uniform"}},
-                        {"backtrace", kSwitch},
-                        {"shade", {"delayed", "asap"}},
-                        {"sky", {"mask", "normalize"}}},
-            .ranges = {{"coverage", {0.1, 16}}, {"alpha", {0.01, 1}}, {"visible", {1, 32, true}}},
+            .choices = {{"mask", {{"6x6", "4x8"}, "6x6"}},
+                        {"weights", {{"visibility", "uniform"}, "visibility"}},
+                        {"backtrace", onOff(usual.backtrace)},
+                        {"shade", {{"delayed", "asap"}, "delayed"}},
+                        {"sky", {{"mask", "normalize"}, "mask"}}},
+            .ranges = {{"coverage", {0.1, 16, usual.coverage}},
+                       {"alpha", {0.01, 1, usual.alpha}},
+                       {"visible", {1, 32, double(usual.visible), true}}},
             .run_field = traceCtss};
 }
 
 }  // namespace
 
 const std::vector<MethodEntry>& methodRegistry() {
+    static const sdf::TraceSettings trace;
+    static const LottesSettings lottes;
     static const std::vector<MethodEntry> registry{
         {.name = "none",
          .summary = "one sample at the pixel's centre",
@@ -207,7 +219,7 @@ const std::vector<MethodEntry>& methodRegistry() {
         {.name = "nsaa",
          .summary = "the exact integral of the filter over what is visible of every triangle",
          .needs_triangles = true,
-         .choices = {{"visibility", {"slab", "awj13"}}},
+         .choices = {{"visibility", {{"slab", "awj13"}, "slab"}}},
          .host_alone = {{"visibility", "awj13"}},
          .run = runNsaa,
          .run_vulkan = kNsaaVulkan},
@@ -239,46 +251,49 @@ const std::vector<MethodEntry>& methodRegistry() {
          .summary = "FXAA 3.11 on the picture of none",
          .own_box = true,
          .choices = {{"preset",
-                      {"10", "11", "12", "13", "14", "15", "20", "21", "22", "23", "24", "25", "26", "27",
-                       "28", "29", "39"}}},
+                      {{"10", "11", "12", "13", "14", "15", "20", "21", "22", "23", "24", "25", "26", "27",
+                        "28", "29", "39"},
+                       "12"}}},
          .run = runFxaa,
          .run_field = traceFxaa},
         {.name = "smaa",
          .summary = "SMAA 1x on the picture of none",
          .own_box = true,
-         .choices = {{"preset", {"low", "medium", "high", "ultra"}},
-                     {"edges", {"luma", "color"}},
-                     {"blend", {"linear", "gamma"}}},
+         .choices = {{"preset", {{"low", "medium", "high", "ultra"}, "high"}},
+                     {"edges", {{"luma", "color"}, "luma"}},
+                     {"blend", {{"linear", "gamma"}, "linear"}}},
          .run = runSmaa,
          .run_field = traceSmaa},
         {.name = "sphere",
          .summary = "SDF scenes: sphere tracing, one sample at the pixel's centre",
          .own_box = true,
-         .choices = {{"relax", {"none", "keinert", "balint", "auto"}},
-                     {"candidate", {"last", "screen"}},
-                     {"prepass", kSwitch},
-                     {"prune", kSwitch},
-                     {"convex", kSwitch},
-                     {"level-set", kSwitch}},
-         .ranges = {{"omega", {1, 2}},
-                    {"discontinuity", {0, 64, true}},
-                    {"threshold", {1e-6, 1}},
-                    {"steps", {1, 60000, true}}},
+         .choices = {{"relax", {{"none", "keinert", "balint", "auto"}, "auto"}},
+                     {"candidate", {{"last", "screen"}, "screen"}},
+                     {"prepass", onOff(trace.prepass)},
+                     {"prune", onOff(trace.prune)},
+                     {"convex", onOff(trace.convex)},
+                     {"level-set", onOff(trace.level_set)}},
+         .ranges = {{"omega", {1, 2, trace.omega}},
+                    {"discontinuity", {0, 64, double(trace.discontinuity_steps), true}},
+                    {"threshold", {1e-6, 1, trace.threshold}},
+                    {"steps", {1, 60000, double(trace.most_steps), true}}},
          .run_field = traceSphere},
         coneEntry("ctss", "SDF: cone-traced supersampling"),
         coneEntry("ctss-r", "SDF: cone-traced supersampling that ends at the ray's own hit"),
         {.name = "ctss-x",
          .summary = "SDF: cones find what edges cross, lines divide it exactly",
          .own_box = true,
-         .choices = {{"weights", {"box", "filter"}}},
+         .choices = {{"weights", {{"box", "filter"}, "box"}}},
          .run_field = traceCtssX},
         {.name = "lottes",
          .summary = "SDF: one jittered ray a pixel and frame, coverage, 11-ray reconstruction, grain",
          .own_box = true,
-         .choices = {{"weights", {"gaussian", "disk"}},
-                     {"spectrum", {"blue", "white"}},
-                     {"coverage", {"on", "off"}}},
-         .ranges = {{"distance", {0.05, 4}}, {"scale", {0.01, 100}}, {"grain", {0, 1}}},
+         .choices = {{"weights", {{"gaussian", "disk"}, "gaussian"}},
+                     {"spectrum", {{"blue", "white"}, "blue"}},
+                     {"coverage", onOff(lottes.coverage)}},
+         .ranges = {{"distance", {0.05, 4, lottes.distance}},
+                    {"scale", {0.01, 100, lottes.scale}},
+                    {"grain", {0, 1, lottes.grain}}},
          .run_field = traceLottes,
          .field_on_cpu = true},
         {.name = "path",
@@ -309,9 +324,15 @@ const std::vector<MethodEntry>& methodRegistry() {
     return registry;
 }
 
-double MethodSpec::numberOf(const std::string& key, double fallback) const {
-    const auto found = parameters.find(key);
-    return found == parameters.end() ? fallback : numberIn(found->second).value_or(fallback);
+std::optional<double> numberIn(std::string_view text) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+double MethodSpec::numberOf(const std::string& key) const {
+    return numberIn(parameter(key)).value();
 }
 
 MethodSpec parseMethod(std::string_view typed) {
@@ -329,7 +350,7 @@ MethodSpec parseMethod(std::string_view typed) {
 bool takesFilter(const MethodSpec& spec) {
     // What is composed with samples is filtered like them.
     return !spec.composed.empty() || !requireMethod(spec.typed, spec.name).own_box ||
-           spec.parameter("weights", "box") == "filter";
+           spec.has("weights", "filter");
 }
 
 DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options) {
@@ -337,7 +358,7 @@ DeviceDecision decideDevice(const MethodSpec& spec, const RenderOptions& options
     const DeviceChoice choice = own == spec.parameters.end() ? options.device : deviceChoice(own->second);
     const MethodEntry& entry = requireMethod(spec.typed, spec.name);
     const bool on_host = std::ranges::any_of(
-        entry.host_alone, [&](const auto& alone) { return spec.parameter(alone.first, "") == alone.second; });
+        entry.host_alone, [&](const auto& alone) { return spec.has(alone.first, alone.second); });
     return decideDevice(choice, entry.run_vulkan != nullptr && !on_host);
 }
 
@@ -369,8 +390,7 @@ MethodResult runOnTriangles(const MethodEntry& entry, const MethodSpec& spec, co
     const DeviceDecision decision = decideDevice(spec, input.options);
     tbb::task_arena arena(input.options.threads > 0 ? input.options.threads : tbb::task_arena::automatic);
     MethodResult result;
-    const bool asked =
-        input.options.device == DeviceChoice::kVulkan || spec.parameter("device", "auto") == "vulkan";
+    const bool asked = input.options.device == DeviceChoice::kVulkan || spec.has("device", "vulkan");
     arena.execute(
         [&] { result = decision.vulkan ? runOnDevice(entry, spec, input, asked) : entry.run(spec, input); });
     if (asked && !decision.vulkan)

@@ -7,6 +7,9 @@ namespace edgewise {
 
 const std::vector<MethodEntry>& methodRegistry();
 
+/// The whole of the text as one number.
+std::optional<double> numberIn(std::string_view text);
+
 /// The entry's Vulkan form. Where the device fails and nobody `asked` for it by name, the CPU's form and a
 /// note.
 MethodResult runOnDevice(const MethodEntry& entry, const MethodSpec& spec, const MethodInput& input,

@@ -25,6 +25,7 @@ class RayStages : public SampledStages {
         const PixelBox window = frame.windowOf(part);
         const SampledOwners sampled = scene_.trace(window, patterns_);
         frame.watch.book("visibility", frame.result.stages);
+        if (frame.dump.active()) dumpSamples(frame, part, sampled);
         filter_.filter(part, window, sampled, frame.result.image, frame.shaded);
         frame.watch.book("shade", frame.result.stages);
     }
@@ -32,6 +33,18 @@ class RayStages : public SampledStages {
     double bytesPerSample(const SampledFrame&) const override { return sizeof(Owner); }
 
   private:
+    void dumpSamples(SampledFrame& frame, const PixelBox& part, const SampledOwners& sampled) const {
+        const PixelBox window = frame.windowOf(part);
+        const auto count = static_cast<std::size_t>(patterns_.samples);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                const std::size_t pixel =
+                    static_cast<std::size_t>(y - window.y0) * window.width() + (x - window.x0);
+                frame.dump.pixel(x, y, patterns_.pattern(patterns_.patternOf(x, y)),
+                                 std::span(sampled.owner).subspan(pixel * count, count), sampled.stacks);
+            }
+    }
+
     PixelPatterns patterns_;
     PatternWeights weights_;
     RayScene scene_;

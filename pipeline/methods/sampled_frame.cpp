@@ -57,6 +57,7 @@ SampledOwners CpuSampledStages::owners(const SampledFrame& frame, const PixelBox
 void CpuSampledStages::render(SampledFrame& frame, const PixelBox& part) {
     SampledOwners sampled = owners(frame, frame.windowOf(part));
     frame.watch.book("visibility", frame.result.stages);
+    frame.dumpSamples(part, sampled);
     frame.filter(part, std::move(sampled));
     frame.watch.book("shade", frame.result.stages);
 }
@@ -68,7 +69,8 @@ SampledFrame::SampledFrame(const MethodInput& input, SamplePattern samples, Samp
       screen(project(in.scene, in.camera, in.film, pieces, in.progress)),
       shading(in.scene, in.camera, in.film, screen, pieces),
       aov(in.options.aovs, in.scene, in.camera, in.film, screen, pieces, shading),
-      pixels(in, shading, aov, weights, pattern) {
+      pixels(in, shading, aov, weights, pattern),
+      dump(in.options.dump_dir, in.film.crop, screen) {
     watch.book("project", result.stages);
     checkCancelled(in.progress);
 }
@@ -88,6 +90,7 @@ MethodResult SampledFrame::render(SampledStages& stages) {
         samples += static_cast<std::uint64_t>(window.width()) * window.height() * pattern.size();
         checkCancelled(in.progress);
     }
+    dump.finish();
     result.counts["triangles"] = in.scene.triangle_count;
     result.counts["pieces"] = screen.triangles.size();
     result.counts["samples"] = samples;
@@ -108,6 +111,23 @@ void SampledFrame::filter(const PixelBox& part, SampledOwners sampled) {
         pixels.filterRow(band, row, part.x0, part.x1, result.image, shaded);
         in.progress.advance(1);
     });
+}
+
+void SampledFrame::dumpSamples(const PixelBox& part, const SampledOwners& sampled) {
+    if (!dump.active()) return;
+    const PixelBox window = windowOf(part);
+    const auto columns = static_cast<std::size_t>(pattern.columns),
+               rows = static_cast<std::size_t>(pattern.rows);
+    const std::size_t stride = columns * static_cast<std::size_t>(window.width());
+    std::vector<Owner> owners(columns * rows);
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x) {
+            const Owner* first = &sampled.owner[static_cast<std::size_t>(y - window.y0) * rows * stride +
+                                                static_cast<std::size_t>(x - window.x0) * columns];
+            for (std::size_t row = 0; row < rows; ++row)
+                std::copy_n(first + row * stride, columns, &owners[row * columns]);
+            dump.pixel(x, y, pattern.at_px, owners, sampled.stacks);
+        }
 }
 
 void SampledFrame::bookSeconds(const std::string& name, double seconds) {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "pipeline/dump_samples.h"
 #include "pipeline/methods/pixel_filter.h"
 #include "pipeline/methods/stopwatch.h"
 
@@ -47,6 +48,8 @@ class SampledFrame {
     PixelBox windowOf(const PixelBox& box) const;
     /// Shades and filters a box's pixels on the CPU.
     void filter(const PixelBox& part, SampledOwners sampled);
+    /// What the samples of a box's pixels see, for --dump-stages; `sampled` is of the box's window.
+    void dumpSamples(const PixelBox& part, const SampledOwners& sampled);
     void bookSeconds(const std::string& name, double seconds);
 
     const MethodInput& in;
@@ -59,6 +62,7 @@ class SampledFrame {
     Shading shading;
     AovPass aov;
     PixelFilter pixels;
+    SampleDump dump;
     std::atomic<std::uint64_t> shaded{0};
 
   private:

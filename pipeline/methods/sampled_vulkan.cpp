@@ -303,6 +303,8 @@ MethodResult runSampledVulkan(const MethodInput& in, SamplePattern pattern, Samp
         VulkanSampledStages stages(frame, place);
         MethodResult result = frame.render(stages);
         stages.report(frame, result);
+        if (frame.dump.active())
+            result.notes.emplace_back("what samples see stays on the device: --device cpu dumps it");
         return result;
     });
 }

@@ -19,9 +19,9 @@ SmaaSettings settingsOf(const MethodSpec& spec) {
         {"high", {.threshold = 0.1f, .search_steps = 16, .diagonal_steps = 8, .corner_rounding = 0.25f}},
         {"ultra", {.threshold = 0.05f, .search_steps = 32, .diagonal_steps = 16, .corner_rounding = 0.25f}},
     };
-    SmaaSettings settings = presets.at(spec.parameter("preset", "high"));
-    settings.color_edges = spec.parameter("edges", "luma") == "color";
-    settings.gamma_blend = spec.parameter("blend", "linear") == "gamma";
+    SmaaSettings settings = presets.at(spec.parameter("preset"));
+    settings.color_edges = spec.parameter("edges") == "color";
+    settings.gamma_blend = spec.parameter("blend") == "gamma";
     return settings;
 }
 

@@ -8,6 +8,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/compare/comparison_tables.h"
+#include "pipeline/json_text.h"
 #include "pipeline/sweep/sweep_report.h"
 
 namespace edgewise::sweep {
@@ -99,7 +100,8 @@ std::string resultsJson(const SweepResults& results) {
         json.update(compare::rowJson(row));
         rows.push_back(std::move(json));
     });
-    return Json{{"machines", machines}, {"disagreements", results.disagreements}, {"rows", rows}}.dump(2) +
+    return jsonText(Json{{"machines", machines}, {"disagreements", results.disagreements}, {"rows", rows}},
+                    2) +
            "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipeline/version.h"
+#include "tests/cli/read_picture.h"
 #include "tests/cli/run_program.h"
 
 namespace edgewise::test {
@@ -114,6 +115,49 @@ TEST(Compare, ResumeKeepsTheRowsOfTheSameCommand) {
     // another size is another command
     ASSERT_EQ(compareIn(folder, {"--resume", "--method", "none"}, "40x32").status, 0);
     EXPECT_EQ(rowOf(resultsOf(folder), "none").at("size"), json({40, 32}));
+}
+
+TEST(Compare, ExposureIsForPngAlone) {
+    const TemporaryFolder folder;
+    const auto compareAt = [&](Arguments more) {
+        more.insert(more.end(), {"--method", "ssaa:2", "--runs", "1", "--resume"});
+        const ProgramRun run = compareIn(folder, more);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return rowOf(resultsOf(folder), "ssaa:2").at("error");
+    };
+    const auto pixels = [&](const char* name) {
+        return readPicture(folder / (std::string("out/") + name)).values;
+    };
+    const json error = compareAt({});
+    const auto exr = pixels("ssaa_2.exr"), png = pixels("ssaa_2.png");
+    EXPECT_EQ(compareAt({"--exposure", "-1"}), error);
+    EXPECT_EQ(pixels("ssaa_2.exr"), exr);
+    EXPECT_NE(pixels("ssaa_2.png"), png) << "kept by --resume?";
+}
+
+TEST(Compare, ParametersAreResolved) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(compareIn(folder, {"--runs", "1", "--method", "ssaa:2", "--method", "smaa:edges=color"}).status,
+              0);
+    const json results = resultsOf(folder);
+    EXPECT_EQ(rowOf(results, "ssaa:2").at("parameters"), json({{"number", 2}}));
+    EXPECT_EQ(rowOf(results, "smaa:edges=color").at("parameters"),
+              json({{"preset", "high"}, {"edges", "color"}, {"blend", "linear"}}));
+}
+
+/// Names of files are bytes, and JSON's text is UTF-8.
+TEST(Compare, NamesNeedNotBeUtf8) {
+    const TemporaryFolder folder;
+    const std::string scene = "r\xe9seau.glb", out = "r\xe9sultat";
+    std::filesystem::copy_file(std::filesystem::path(EDGEWISE_TEST_DATA) / "torus-20k.glb", folder / scene);
+    const ProgramRun run = runProgram({"compare", scene, "-o", out, "--size", "24x16", "--device", "cpu",
+                                       "--runs", "1", "--method", "none"},
+                                      folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json results = json::parse(readFile(folder / (out + "/results.json")));
+    EXPECT_EQ(results.at("scene"), "r\ufffdseau.glb");
+    EXPECT_EQ(rowOf(results, "none").at("status"), "ok");
+    EXPECT_TRUE(std::filesystem::exists(folder / (out + "/report.html")));
 }
 
 TEST(Compare, WrongInputIsOneLineBeforeAnythingRuns) {

@@ -19,6 +19,15 @@ TEST(Help, NamesEveryCommand) {
         EXPECT_NE(run.out.find(std::string("\n  ") + command), std::string::npos) << command;
 }
 
+TEST(Help, NamesEveryKindOfScene) {
+    const ProgramRun run = runProgram({"--help"});
+    const std::size_t at = run.out.find("SCENE is");
+    ASSERT_NE(at, std::string::npos);
+    const std::string line = run.out.substr(at, run.out.find('\n', at) - at);
+    for (const char* kind : {".gltf", ".glb", ".sdf.json", ".map.glsl"})
+        EXPECT_NE(line.find(kind), std::string::npos) << kind;
+}
+
 TEST(Help, OfRenderNamesEveryFlag) {
     const ProgramRun run = runProgram({"render", "--help"});
     EXPECT_EQ(run.status, 0);
@@ -50,6 +59,13 @@ TEST(Help, OfRenderNamesEveryFlag) {
                              "--seed N",
                              "--quiet"})
         EXPECT_NE(run.out.find(flag), std::string::npos) << flag;
+}
+
+TEST(Help, EveryCommandTakesQuiet) {
+    for (const char* command : {"render", "compare", "sweep", "merge", "polygonize", "weights", "metrics",
+                                "post", "info", "methods", "filters", "scenes", "figure", "figures"})
+        EXPECT_NE(runProgram({command, "--help"}).out.find("--quiet"), std::string::npos) << command;
+    EXPECT_EQ(runProgram({"info", "torus-20k", "--quiet"}).status, 0);
 }
 
 TEST(Help, VersionIsOneLine) {

@@ -64,6 +64,25 @@ TEST(Post, KeepsBothWindows) {
     EXPECT_EQ(spec.roi_full(), OIIO::ROI(0, 60, 0, 40, 0, 1, 0, 5));
 }
 
+TEST(Post, SaysInTheMetadataHowItWasMade) {
+    const TemporaryFolder folder;
+    renderNone(folder, "none.exr");
+    run(folder, {"post", "none.exr", "--method", "fxaa", "-o", "out.exr"});
+    const OIIO::ImageSpec spec = readPicture(folder / "out.exr").spec;
+    for (const char* key : {"edgewise:version", "edgewise:command", "edgewise:device", "edgewise:seed"})
+        EXPECT_FALSE(spec.get_string_attribute(key).empty()) << key;
+    EXPECT_EQ(spec.get_string_attribute("edgewise:seed"), "0");
+}
+
+TEST(Post, ExposureIsForPngAlone) {
+    const TemporaryFolder folder;
+    renderNone(folder, "none.exr");
+    run(folder, {"post", "none.exr", "--method", "fxaa", "-o", "a.exr", "-o", "a.png"});
+    run(folder, {"post", "none.exr", "--method", "fxaa", "-o", "b.exr", "-o", "b.png", "--exposure", "-1"});
+    EXPECT_EQ(readPicture(folder / "a.exr").values, readPicture(folder / "b.exr").values);
+    EXPECT_NE(readPicture(folder / "a.png").values, readPicture(folder / "b.png").values);
+}
+
 TEST(Post, ThreadsDoNotEnterThePixels) {
     const TemporaryFolder folder;
     renderNone(folder, "none.png");

@@ -217,5 +217,20 @@ TEST(Render, CtrlCEndsWith130AndLeavesNothing) {
     EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(Render, FoldersOfStagesAreNeverLeftEmpty) {
+    const TemporaryFolder folder;
+    render(folder, "a.exr", {"--dump-stages", "stages"});
+    for (const char* name : {"screen.csv", "samples.csv", "samples.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / ("stages/" + std::string(name)))) << name;
+    if (runProgram({"methods"}).out.find("\nexact:") == std::string::npos)
+        GTEST_SKIP() << "built without the oracle";
+    const ProgramRun exact = runProgram(
+        {"render", "torus-20k", "-o", "b.exr", "--size", "2x2", "--method", "exact", "--dump-stages", "none"},
+        folder.path());
+    EXPECT_EQ(exact.status, 0) << exact.err;
+    EXPECT_NE(exact.err.find("'exact' has no stages to dump"), std::string::npos) << exact.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
 }  // namespace
 }  // namespace edgewise::test

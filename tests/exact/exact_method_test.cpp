@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "pipeline/error.h"
 #include "pipeline/methods/exact.h"
 #include "pipeline/methods/nsaa.h"
 #include "tests/pipeline/shipped_picture.h"
+#include "tests/pipeline/test_scene.h"
 
 namespace edgewise {
 namespace {
@@ -34,6 +36,59 @@ TEST_P(ExactMethod, NsaaMakesTheOraclesPicture) {
             }
     }
     fmt::print("{}: worst difference {:.1e}\n", picture.name, worst);
+}
+
+/// Triangles of all colours that overlap and pierce each other.
+Scene colouredSoup() {
+    std::mt19937 random(91);
+    std::uniform_real_distribution<float> side(-3, 3), depth(-9, -1);
+    std::vector<test::Corners> triangles(5);
+    for (auto& t : triangles)
+        for (auto& p : t) p = {side(random), side(random), depth(random)};
+    Geometry geometry = test::makeGeometry(triangles);
+    for (const glm::dvec3& p : geometry.position_world)
+        geometry.color.push_back({0.5 + 0.1 * p.x, 0.5 + 0.1 * p.y, 0.5 + 0.05 * p.z, 1.0});
+    return test::makeScene({geometry});
+}
+
+/// Where nsaa shades, the oracle shades.
+TEST(ExactMethodShading, IsNsaasInEveryMode) {
+    const Scene scene = colouredSoup();
+    constexpr int kFewPx = 4;                                            // the oracle takes its time
+    const ResolvedCamera camera = test::makeOrthographic(kFewPx / 2.0);  // a world unit is a pixel
+    const Film film = test::makeFilm(kFewPx, kFewPx);
+    Progress progress;
+    for (const char* name : {"gaussian", "box"}) {
+        const Prefilter filter = makePrefilter(name, {}, {});
+        const auto render = [&](const char* method, ShadingChoice shading) {
+            RenderOptions options;
+            options.shading = shading;
+            return runMethod(parseMethod(method), {scene, camera, film, filter, options, progress});
+        };
+        const ImageBuffer closest = render("exact", {}).image;
+        for (const ShadingChoice shading : {ShadingChoice{ShadingMode::kClosest, 1},
+                                            {ShadingMode::kCentroid, 1},
+                                            {ShadingMode::kSamples, 4},
+                                            {ShadingMode::kHit, 1}}) {
+            const MethodResult truth = render("exact", shading), product = render("nsaa", shading);
+            double worst = 0.0;
+            for (std::size_t i = 0; i < truth.image.rgba.size(); ++i)
+                for (int c = 0; c < 4; ++c)
+                    worst = std::max(worst, std::abs(truth.image.rgba[i][c] - product.image.rgba[i][c]));
+            EXPECT_LE(worst, kTarget) << name << " mode " << int(shading.mode);
+            const bool elsewhere =
+                shading.mode == ShadingMode::kCentroid || shading.mode == ShadingMode::kSamples;
+            EXPECT_EQ(truth.image.rgba != closest.rgba, elsewhere) << name << " mode " << int(shading.mode);
+            EXPECT_EQ(truth.notes.size(), shading.mode == ShadingMode::kHit ? 1u : 0u);
+        }
+    }
+}
+
+TEST(ExactMethodLimits, ChannelsAreAWrongCommandLine) {
+    const auto picture = test::shippedPicture("torus-20k", 2);
+    RenderOptions options;
+    options.aovs = {Aov::kDepth};
+    EXPECT_THROW(test::renderPicture(picture, makePrefilter("box", {}, {}), options, "exact"), InputError);
 }
 
 TEST(ExactMethodLimits, TooManyTrianglesAndPanesAreRefused) {

@@ -182,7 +182,7 @@ TEST(FieldMethods, EdgesAreWhereSamplesDiffer) {
 }
 
 TEST(FieldMethods, ParametersThatAreNumbersAreChecked) {
-    EXPECT_EQ(parseMethod("sphere:omega=1.5").numberOf("omega", 1.2), 1.5);
+    EXPECT_EQ(parseMethod("sphere:omega=1.5").numberOf("omega"), 1.5);
     for (const char* wrong : {"sphere:omega=3", "sphere:omega=nan", "sphere:steps=1.5", "sphere:threshold=0",
                               "sphere:omega=1.2,omega=1.3", "sphere:discontinuity=x", "sphere:relax=fast"})
         EXPECT_THROW(parseMethod(wrong), InputError) << wrong;

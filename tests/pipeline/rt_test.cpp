@@ -117,6 +117,66 @@ TEST(Rt, RaysSeeWhatExactSamplesSee) {
     }
 }
 
+/// Walls of one plane each: two triangles that cover a square and, before and after them in the order of the
+/// index, copies of themselves and smaller ones that overlap them and each other.
+Scene decalScene(unsigned seed, int pane = 0) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    std::vector<Geometry> geometry;
+    for (int wall = 0; wall < 4; ++wall) {
+        const glm::vec3 centre(1.2f * unit(random), 1.2f * unit(random), -3.0f + unit(random));
+        const auto at = [&](float x, float y) {  // of a lattice, so that all are exactly coplanar
+            return centre + glm::vec3(std::round(x * 64) / 64, std::round(y * 64) / 64, 0.0f);
+        };
+        const test::Corners half{at(-1, -1), at(1, -1), at(1, 1)}, other{at(-1, -1), at(1, 1), at(-1, 1)};
+        std::vector<test::Corners> triangles;
+        const auto addDecals = [&] {
+            for (int i = 0; i < 6; ++i)
+                triangles.push_back({at(unit(random), unit(random)), at(unit(random), unit(random)),
+                                     at(unit(random), unit(random))});
+        };
+        addDecals();
+        triangles.insert(triangles.end(), {half, other, half, other});
+        addDecals();
+        geometry.push_back(test::makeGeometry(triangles));
+    }
+    Scene scene = test::makeScene(std::move(geometry));
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].alpha_mode = AlphaMode::kBlend;
+    scene.materials[1].base_color.a = 0.5;
+    if (pane > 0)
+        for (std::size_t i = 0; i < scene.geometry.size(); i += pane) scene.geometry[i].material = 1;
+    return scene;
+}
+
+TEST(Rt, OfCoplanarTrianglesTheLowerIndexIsSeen) {
+    for (const unsigned seed : {11u, 12u, 13u}) {
+        expectOwnersOfExactSamples(decalScene(seed), test::makePerspective(), "decals");
+        expectOwnersOfExactSamples(decalScene(seed), test::makeOrthographic(2.0), "decals, orthographic");
+        expectOwnersOfExactSamples(decalScene(seed, 2), test::makePerspective(), "decals and panes");
+    }
+}
+
+/// Only triangles that others of a lower index overlap are asked about: a wall of many is not.
+TEST(Rt, NeighboursInAPlaneAreNoTies) {
+    std::vector<test::Corners> wall;
+    for (int y = -8; y < 8; ++y)
+        for (int x = -8; x < 8; ++x) {
+            const float l = x / 8.0f, r = (x + 1) / 8.0f, b = y / 8.0f, t = (y + 1) / 8.0f;
+            wall.push_back({{{l, b, -2}, {r, b, -2}, {r, t, -2}}});
+            wall.push_back({{{l, b, -2}, {r, t, -2}, {l, t, -2}}});
+        }
+    const Film film = test::makeFilm(32, 32);
+    const auto tiesOf = [&](const std::vector<test::Corners>& triangles) {
+        const Scene scene = test::makeScene({test::makeGeometry(triangles)});
+        const ScreenScene screen = project(scene, test::makePerspective(), film);
+        return CoplanarTies(screen).any();
+    };
+    EXPECT_FALSE(tiesOf(wall));
+    wall.push_back(wall[100]);
+    EXPECT_TRUE(tiesOf(wall));
+}
+
 /// Far surfaces keep apart though the nearest depth is 2^20 times theirs.
 TEST(Rt, DepthIsRelative) {
     constexpr float kFar = 1.0e4f;

@@ -83,7 +83,7 @@ TEST(Methods, GrammarAndItsErrors) {
     const MethodSpec spec = parseMethod("ssaa:4,device=vulkan");
     EXPECT_EQ(spec.name, "ssaa");
     EXPECT_EQ(spec.number, 4);
-    EXPECT_EQ(spec.parameter("device", "auto"), "vulkan");
+    EXPECT_EQ(spec.parameter("device"), "vulkan");
     EXPECT_EQ(spec.typed, "ssaa:4,device=vulkan");
     EXPECT_EQ(parseMethod("none").name, "none");
     EXPECT_EQ(parseMethod("none+ssaa:2").composed.at(0).number, 2);

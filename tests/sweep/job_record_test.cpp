@@ -11,7 +11,7 @@ namespace {
 
 compare::Row rowWith(double seconds, double rmse) {
     compare::Row row;
-    row.method = "ssaa:2", row.parameters = {{"number", "2"}};
+    row.method = "ssaa:2", row.parameters = {{"number", 2}};
     row.filter = "box", row.radius = 0.5, row.size = {8, 6}, row.device = "cpu";
     row.seconds = {seconds, 1.0 / 3.0}, row.setup_seconds = {0.0, 0.0};
     row.stages = {{"sample", {seconds, 0.25}}};
