@@ -224,9 +224,10 @@ TEST(Render, FoldersOfStagesAreNeverLeftEmpty) {
         EXPECT_TRUE(std::filesystem::exists(folder / ("stages/" + std::string(name)))) << name;
     if (runProgram({"methods"}).out.find("\nexact:") == std::string::npos)
         GTEST_SKIP() << "built without the oracle";
-    const ProgramRun exact = runProgram(
-        {"render", "torus-20k", "-o", "b.exr", "--size", "2x2", "--method", "exact", "--dump-stages", "none"},
-        folder.path());
+    const ProgramRun exact =
+        runProgram({"render", "torus-20k", "-o", "b.exr", "--size", "60x40", "--crop", "20,20,22,22",
+                    "--filter", "box", "--method", "exact", "--dump-stages", "none"},
+                   folder.path());
     EXPECT_EQ(exact.status, 0) << exact.err;
     EXPECT_NE(exact.err.find("'exact' has no stages to dump"), std::string::npos) << exact.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
