@@ -18,7 +18,7 @@ std::string typedOf(const std::string& name, const Json& parameters) {
     std::string composed;
     for (const auto& [key, value] : parameters.items())
         if (value.is_object())
-            composed += "+" + typedOf(key, value);
+            composed.append("+").append(typedOf(key, value));
         else if (key == "number")
             parts.push_back(value.dump());
         else
