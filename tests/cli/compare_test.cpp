@@ -69,7 +69,7 @@ TEST(Compare, AnInterruptReachesItsWorkersAndIsNoFailureOfTheirs) {
     const TemporaryFolder folder;
     for (const int after_ms : {300, 2500}) {  // in the reference, and among the runs
         const ProgramRun run = runProgram({"compare", "torus-20k", "-o", "out", "--size", "48x32", "--method",
-                                           "none", "--runs", "100000", "--quiet"},
+                                           "none", "--runs", "10000", "--quiet"},
                                           folder.path(), after_ms);
         EXPECT_EQ(run.status, 130) << run.err;
         EXPECT_EQ(run.err.find("status"), std::string::npos) << run.err;
