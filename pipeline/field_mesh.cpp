@@ -27,9 +27,9 @@ class FilmMesher {
     FilmMesher(const std::string& method, MeshChoice choice, const MethodInput& in)
         : method_(method), choice_(std::move(choice)), in_(in), footprint_(in.camera, in.film) {
         if (isMap()) return;
-        whole_ = sdf::fieldOfAll(*in.scene.field, glm::dvec3(in.camera.camera.world_from_camera[3]));
-        parts_ = partsOf(whole_);
         const glm::dvec3 eye(in.camera.camera.world_from_camera[3]);
+        whole_ = sdf::fieldOfAll(*in.scene.field, eye);
+        parts_ = partsOf(whole_);
         for (const HalfSpace& half : parts_.half_spaces)
             if (glm::dot(eye, half.normal_world) < half.offset)
                 throw InputError(method, fmt::format("needs triangles, and the eye is within a plane's solid "

@@ -15,7 +15,8 @@ struct FieldMesh {
     MeshReport report;
 };
 
-/// Throws InputError naming the method for a scene with other unbounded parts; else as polygonize() does.
+/// Throws InputError naming the method for a scene with other unbounded parts, and for an eye within a
+/// half-space; else as polygonize() does.
 /// `store`: of the input's scene, camera and film.
 FieldMesh meshForFilm(const MethodSpec& spec, const MethodInput& input, const MeshStore* store = nullptr);
 

@@ -21,8 +21,8 @@ FieldScene loadSdf(std::string_view text);
 /// where nothing is bounded.
 Box sceneBounds(const FieldScene& scene);
 
-/// Where rays may end that frame the bounds, from any side: times their diagonal, enough for angles of view
-/// from 8 degrees on.
+/// Eight of the bounds' diagonals: beyond all that a camera which frames them sees of them, at angles of view
+/// from 10 degrees on.
 double farFor(const Box& bounds);
 
 }  // namespace edgewise::sdf

@@ -5,6 +5,7 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/error.h"
+#include "pipeline/exit_status.h"
 #include "pipeline/progress_bar.h"
 
 namespace edgewise::cli {

@@ -5,13 +5,11 @@
 
 namespace edgewise::cli {
 
-inline constexpr int kInterruptedStatus = 130;
-
 /// How long work that does not ask whether it shall stop may go on: sorting, compression, a library's parser.
 inline constexpr unsigned kGraceSeconds = 1;
 
-/// From now on SIGINT sets interruptFlag(); kGraceSeconds later, or at a second one, the process ends. Either
-/// way nothing is left half-written.
+/// From now on SIGINT, SIGTERM and SIGHUP set interruptFlag(); kGraceSeconds later, or at a second one, the
+/// process ends. Either way nothing is left half-written.
 void catchInterrupts();
 
 const std::atomic<bool>& interruptFlag();

@@ -14,12 +14,10 @@
 
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/error.h"
+#include "pipeline/exit_status.h"
 
 namespace edgewise::cli {
 namespace {
-
-constexpr int kFailed = 1;
-constexpr int kWrongInput = 2;
 
 /// Control characters (a file name may hold them) would break the line.
 std::string oneLine(std::string_view text) {
@@ -57,24 +55,24 @@ int runAndReport(const std::function<void()>& work) {
         if (std::fflush(stdout) != 0) throw FailureError("standard output", "cannot be written");
         return 0;
     } catch (const CLI::ParseError& error) {
-        return fail(fmt::format("command line: {}", error.what()), kWrongInput);
+        return fail(fmt::format("command line: {}", error.what()), kWrongInputStatus);
     } catch (const ProblemList& problems) {
         for (const std::string& message : problems.messages) printError(message);
         return problems.status;
     } catch (const InputError& error) {
-        return fail(error.what(), kWrongInput);
+        return fail(error.what(), kWrongInputStatus);
     } catch (const Interrupted&) {
         return kInterruptedStatus;
     } catch (const FailureError& error) {
-        return fail(error.what(), kFailed);
+        return fail(error.what(), kFailedStatus);
     } catch (const std::bad_alloc&) {
-        return fail("memory: not enough for this picture", kFailed);
+        return fail("memory: not enough for this picture", kFailedStatus);
     } catch (const std::filesystem::filesystem_error& error) {
-        return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()), kFailed);
+        return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()), kFailedStatus);
     } catch (const std::system_error& error) {  // fmt::print on a full disk; files go through atomic_file
-        return fail(fmt::format("standard output: {}", error.code().message()), kFailed);
+        return fail(fmt::format("standard output: {}", error.code().message()), kFailedStatus);
     } catch (const std::exception& error) {
-        return fail(fmt::format("internal: {}", error.what()), kFailed);
+        return fail(fmt::format("internal: {}", error.what()), kFailedStatus);
     }
 }
 

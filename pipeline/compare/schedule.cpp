@@ -5,6 +5,7 @@
 #include "pipeline/compare/raw_image.h"
 #include "pipeline/compare/worker_process.h"
 #include "pipeline/error.h"
+#include "pipeline/exit_status.h"
 #include "pipeline/methods/mesh_report.h"
 #include "pipeline/scoped_path.h"
 
@@ -12,8 +13,6 @@ namespace edgewise::compare {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr int kWrongInput = 2;
 
 void takeRun(const Json& reply, Row& row) {
     row.seconds.push_back(reply.at("seconds"));
@@ -83,7 +82,7 @@ class Turn {
         } catch (const WorkerTimeout&) {
             alive_ = false, timeout_ = true;
         } catch (const WorkerFailure& failure) {
-            if (failure.status == kWrongInput) throw;
+            if (failure.status == kWrongInputStatus) throw;
             alive_ = false;
             row_.status = RowStatus::kFailed, row_.why = failure.what();
         }

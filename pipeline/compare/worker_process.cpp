@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "pipeline/error.h"
+#include "pipeline/exit_status.h"
 #include "pipeline/json_text.h"
 
 namespace edgewise::compare {
@@ -21,9 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Between looks at whether the user has had enough.
 constexpr std::chrono::milliseconds kPatience{50};
-
-/// Exit statuses of the contract.
-constexpr int kFailed = 1, kWasInterrupted = 130;
 
 }  // namespace
 
@@ -80,9 +78,10 @@ struct WorkerProcess::State {
         const int how = child.native_exit_code();
         if (WIFSIGNALED(how)) {
             if (WTERMSIG(how) == SIGINT) throw Interrupted();
-            throw WorkerFailure(fmt::format("its process was ended by signal {}", WTERMSIG(how)), kFailed);
+            throw WorkerFailure(fmt::format("its process was ended by signal {}", WTERMSIG(how)),
+                                kFailedStatus);
         }
-        if (child.exit_code() == kWasInterrupted) throw Interrupted();
+        if (child.exit_code() == kInterruptedStatus) throw Interrupted();
         throw WorkerFailure(fmt::format("its process ended with status {}", child.exit_code()),
                             child.exit_code());
     }

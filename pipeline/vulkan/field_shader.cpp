@@ -186,8 +186,8 @@ FieldTexts textsOf(const sdf::FieldScene& scene, const sdf::TraceSettings& setti
     return texts;
 }
 
-/// A CPU's compiler takes seconds for a thousand instructions of straight-line code, once, and runs it twenty
-/// times as fast as rows of a table that differ between invocations.
+/// A CPU's compiler takes seconds for a thousand instructions of straight-line code, once, and runs it
+/// several times as fast as rows of a table.
 constexpr std::size_t kStraightInstructions = 513;
 
 }  // namespace

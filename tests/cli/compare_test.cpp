@@ -67,7 +67,7 @@ TEST(Compare, GivesARowAMethodAndAllFiles) {
 /// A method with a box of its own is judged against the reference with that box.
 TEST(Compare, AnInterruptReachesItsWorkersAndIsNoFailureOfTheirs) {
     const TemporaryFolder folder;
-    for (const int after_ms : {300, 2500}) {  // in the reference, and among the runs
+    for (const int after_ms : {1000, 2500}) {  // in the reference, and among the runs
         const ProgramRun run = runProgram({"compare", "torus-20k", "-o", "out", "--size", "48x32", "--method",
                                            "none", "--runs", "10000", "--quiet"},
                                           folder.path(), after_ms);

@@ -120,8 +120,8 @@ TEST(LoadSdf, RaysReachWhatACameraFrames) {
                       large = R"("tree": {"type": "sphere", "radius": 500})";
     EXPECT_EQ(farOf(small), 1000.0);
     EXPECT_EQ(farOf(R"("far": 20, )" + large), 20.0);
-    // The framing camera is 1.05 / sin(22.5 degrees) radii of the bounds' ball away.
-    EXPECT_GT(farOf(large), (1.05 / 0.38 + 1.0) * 500.0 * std::sqrt(3.0));
+    // The framing camera is 1.05 / sin(half its angle) radii of the bounds' ball away.
+    EXPECT_GT(farOf(large), (1.05 / std::sin(5.0 * 3.14159265 / 180.0) + 1.0) * 500.0 * std::sqrt(3.0));
     const FieldScene endless = loadSdf(
         R"({"tree": {"type": "repeat", "spacing": [4, 4, 0], "child": {"type": "sphere", "radius": 1}}})");
     EXPECT_EQ(endless.bounds.high[0], 13.0);
