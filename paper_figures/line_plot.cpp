@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/html_text.h"
+#include "pipeline/plot_legend.h"
 
 namespace edgewise::figures {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 430, kLeft = 64, kRight = 176, kTop = 14, kBottom = 50;
-constexpr double kInnerWidth = kWidth - kLeft - kRight, kInnerHeight = kHeight - kTop - kBottom;
+constexpr double kHeight = 430, kLeft = 64, kTop = 14, kBottom = 50;
+constexpr double kInnerWidth = 520, kInnerHeight = kHeight - kTop - kBottom;
 constexpr double kLegendStep = 18;
+constexpr double kLegendLeft = 40;            ///< of names, from the plot's inner right border
+constexpr std::size_t kLeastLetters = 17;     ///< such names have room in every plot
 constexpr double kDot = 2.4, kLoneDot = 4.5;  ///< on a line; without one
 
 double part(const PlotAxis& axis, double value) {
@@ -83,7 +87,8 @@ class Canvas {
                     "<circle cx='{:.1f}' cy='{:.1f}' r='{}'{}><title>{}: {:.4g}, {:.5g}</title></circle>",
                     px(p.x), py(p.y), one.line.empty() ? kLoneDot : kDot, style(one), escapedHtml(one.name),
                     p.x, p.y);
-        const double x = kLeft + kInnerWidth + 12, y = kTop + 10 + kLegendStep * static_cast<double>(index);
+        const double x = kLeft + kInnerWidth + kLegendLeft - 28,
+                     y = kTop + 10 + kLegendStep * static_cast<double>(index);
         const char* dash = one.dashed ? " stroke-dasharray='5 3'" : "";
         std::string out =
             fmt::format("<g data-series='{0}' stroke='{1}' fill='{1}'>", escapedHtml(one.name), one.color);
@@ -127,13 +132,16 @@ class Canvas {
 }  // namespace
 
 std::string linePlotSvg(const LinePlot& plot) {
+    std::size_t longest = kLeastLetters;
+    for (const PlotCurve& one : plot.curves) longest = std::max(longest, one.name.size());
+    const double width = kLeft + kInnerWidth + kLegendLeft + nameWidth(longest);
     const Canvas canvas(plot);
     std::string out = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
         "font-family='sans-serif' font-size='12' fill='#333' role='img' aria-label='{2}'><rect width='{0}' "
         "height='{1}' fill='#fff'/><clipPath id='inside'><rect x='{3}' y='{4}' width='{5}' "
         "height='{6}'/></clipPath>\n",
-        kWidth, kHeight, escapedHtml(plot.label), kLeft, kTop, kInnerWidth, kInnerHeight);
+        width, kHeight, escapedHtml(plot.label), kLeft, kTop, kInnerWidth, kInnerHeight);
     out += canvas.axes();
     for (std::size_t i = 0; i < plot.curves.size(); ++i) out += canvas.curve(plot.curves[i], i);
     return out + "</svg>\n";

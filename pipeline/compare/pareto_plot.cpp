@@ -9,12 +9,15 @@
 #include "pipeline/compare/error_slope.h"
 #include "pipeline/html_text.h"
 #include "pipeline/plot_colors.h"
+#include "pipeline/plot_legend.h"
 
 namespace edgewise::compare {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 460, kLeft = 74, kRight = 150, kTop = 16, kBottom = 52;
-constexpr double kInnerWidth = kWidth - kLeft - kRight, kInnerHeight = kHeight - kTop - kBottom;
+constexpr double kHeight = 460, kLeft = 74, kTop = 16, kBottom = 52;
+constexpr double kInnerWidth = 536, kInnerHeight = kHeight - kTop - kBottom;
+constexpr double kLegendLeft = 22;         ///< of names, from the plot's inner right border
+constexpr std::size_t kLeastLetters = 16;  ///< such names have room in every plot
 
 struct Point {
     double seconds, error;
@@ -121,6 +124,13 @@ class Plot {
     Axis x_, y_;
 };
 
+/// Of the whole plot: the longest name of the legend ends within it.
+double widthOf(const Families& families) {
+    std::size_t longest = kLeastLetters;
+    for (const auto& [name, points] : families) longest = std::max(longest, name.size());
+    return kLeft + kInnerWidth + kLegendLeft + nameWidth(longest);
+}
+
 std::string seriesSvg(const Plot& plot, const std::string& name, const std::vector<Point>& points,
                       std::size_t index) {
     const char* color = kPlotColors[index % kPlotColors.size()];
@@ -134,10 +144,10 @@ std::string seriesSvg(const Plot& plot, const std::string& name, const std::vect
             "{:.3g}</title></circle>",
             x, y, p.error > 0.0 ? color : "#fff", color, escapedHtml(p.label), p.seconds, p.error);
     }
-    const double y = kTop + 14 + 18.0 * static_cast<double>(index), x = kLeft + kInnerWidth + 12;
+    const double y = kTop + 14 + 18.0 * static_cast<double>(index), x = kLeft + kInnerWidth + kLegendLeft;
     return fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='1.3'/>{}", path, color, dots) +
-           fmt::format("<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>", x, y - 4,
-                       color, x + 10, y, escapedHtml(name));
+           fmt::format("<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>", x - 10,
+                       y - 4, color, x, y, escapedHtml(name));
 }
 
 }  // namespace
@@ -150,7 +160,7 @@ std::string paretoSvg(const Comparison& comparison) {
         "font-family='sans-serif' font-size='12' fill='#333' role='img' aria-label='error against seconds'>"
         "<rect width='{0}' height='{1}' fill='#fff'/><clipPath id='inside'><rect x='{2}' y='{3}' width='{4}' "
         "height='{5}'/></clipPath>",
-        kWidth, kHeight, kLeft, kTop, kInnerWidth, kInnerHeight);
+        widthOf(families), kHeight, kLeft, kTop, kInnerWidth, kInnerHeight);
     out += plot.axes() + plot.slope(families);
     std::size_t index = 0;
     for (const auto& [name, points] : families) out += seriesSvg(plot, name, points, index++);
