@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "paper_figures/drawing.h"
+#include "pipeline/plot_legend.h"
 
 namespace edgewise::figures {
 namespace {
 
-constexpr double kCellWidth = 82, kCellHeight = 22, kLeft = 150, kTop = 26, kMargin = 10;
+constexpr double kCellWidth = 82, kCellHeight = 22, kLeastLeft = 150, kTop = 26, kMargin = 10;
+constexpr double kGap = 8;           ///< between a row's name and its cells
 constexpr double kLeastWidth = 760;  ///< that texts are as large as in other plots
 constexpr double kLightText = 0.6;   ///< from this shade on
 
@@ -21,20 +23,28 @@ std::string fillOf(const GridCell& cell) {
     return fmt::format("#{:02x}{:02x}{:02x}", mixed(20), mixed(80), mixed(150));
 }
 
-glm::dvec2 cornerOf(std::size_t row, std::size_t column) {
-    return {kLeft + kCellWidth * static_cast<double>(column), kTop + kCellHeight * static_cast<double>(row)};
+/// Where the first column begins: the longest name of a row has room before it.
+double leftOf(const ValueGrid& grid) {
+    std::size_t longest = 0;
+    for (const std::string& name : grid.rows) longest = std::max(longest, name.size());
+    return std::max(kLeastLeft, nameWidth(longest) + kGap);
 }
 
 }  // namespace
 
 std::string valueGridSvg(const ValueGrid& grid) {
+    const auto cornerOf = [left = leftOf(grid)](std::size_t row, std::size_t column) {
+        return glm::dvec2(left + kCellWidth * static_cast<double>(column),
+                          kTop + kCellHeight * static_cast<double>(row));
+    };
     const glm::dvec2 end = cornerOf(grid.rows.size(), grid.columns.size());
     Drawing drawing(std::max(end.x + kMargin, kLeastWidth), end.y + kMargin, grid.label);
     for (std::size_t i = 0; i < grid.columns.size(); ++i)
         drawing.text(cornerOf(0, i) + glm::dvec2(kCellWidth / 2, -8), grid.columns[i],
                      "text-anchor='middle' font-size='11'");
     for (std::size_t j = 0; j < grid.rows.size(); ++j) {
-        drawing.text(cornerOf(j, 0) + glm::dvec2(-8, 15), grid.rows[j], "text-anchor='end' font-size='12'");
+        drawing.text(cornerOf(j, 0) + glm::dvec2(-kGap, 15), grid.rows[j],
+                     "text-anchor='end' font-size='12'");
         for (std::size_t i = 0; i < grid.columns.size(); ++i) {
             const GridCell& cell = grid.cells.at(j * grid.columns.size() + i);
             if (cell.text.empty()) continue;
