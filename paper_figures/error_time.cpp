@@ -29,7 +29,7 @@ struct Effort {
 };
 
 Effort fullEffort() {
-    Effort effort{3, 10.0, {}, {}, {}};
+    Effort effort{3, 5.0, {}, {}, {}};
     for (const SceneInfo& scene : sceneNames()) effort.scenes.push_back(scene.name);
     effort.triangles = {512,
                         512,
