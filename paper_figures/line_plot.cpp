@@ -14,6 +14,7 @@ namespace {
 constexpr double kHeight = 430, kLeft = 64, kTop = 14, kBottom = 50;
 constexpr double kInnerWidth = 520, kInnerHeight = kHeight - kTop - kBottom;
 constexpr double kLegendStep = 18;
+constexpr double kMarkWidth = 28;             ///< of what stands before a name, and a gap
 constexpr double kLegendLeft = 40;            ///< of names, from the plot's inner right border
 constexpr std::size_t kLeastLetters = 17;     ///< such names have room in every plot
 constexpr double kDot = 2.4, kLoneDot = 4.5;  ///< on a line; without one
@@ -87,7 +88,7 @@ class Canvas {
                     "<circle cx='{:.1f}' cy='{:.1f}' r='{}'{}><title>{}: {:.4g}, {:.5g}</title></circle>",
                     px(p.x), py(p.y), one.line.empty() ? kLoneDot : kDot, style(one), escapedHtml(one.name),
                     p.x, p.y);
-        const double x = kLeft + kInnerWidth + kLegendLeft - 28,
+        const double x = kLeft + kInnerWidth + kLegendLeft - kMarkWidth,
                      y = kTop + 10 + kLegendStep * static_cast<double>(index);
         const char* dash = one.dashed ? " stroke-dasharray='5 3'" : "";
         std::string out =
@@ -99,8 +100,8 @@ class Canvas {
         out += one.line.empty()
                    ? fmt::format("<circle cx='{}' cy='{}' r='{}'{}/>", x + 11, y - 4, kLoneDot, style(one))
                    : fmt::format("<path d='M{} {}h22' stroke-width='2'{}/>", x, y - 4, dash);
-        return out + fmt::format("<text x='{}' y='{}' stroke='none' fill='#333'>{}</text></g>\n", x + 28, y,
-                                 escapedHtml(one.name));
+        return out + fmt::format("<text x='{}' y='{}' stroke='none' fill='#333'>{}</text></g>\n",
+                                 x + kMarkWidth, y, escapedHtml(one.name));
     }
 
   private:
