@@ -40,14 +40,16 @@ std::vector<ClaimsOf> claimsOfAll(const std::vector<MadeFigure>& made) {
 std::string indexHtml(const std::vector<MadeFigure>& made) {
     std::string rows;
     double seconds = 0.0;
-    for (const MadeFigure& one : made) rows += rowOf(one), seconds += one.seconds;
+    int there = 0;
+    for (const MadeFigure& one : made)
+        rows += rowOf(one), seconds += one.seconds, there += one.page.empty() ? 0 : 1;
     const std::string claims = claimsHtml(claimsOfAll(made));
     return fmt::format(
                "<!doctype html><html lang='en'><head><meta charset='utf-8'><meta name='viewport' "
                "content='width=device-width'><title>Figures</title><link rel='icon' "
                "href='data:,'><style>{}</style>"
-               "</head><body><main><h1>Figures</h1><p>edgewise {}; {:.0f} s for all of them</p>\n",
-               compare::kReportStyle, escapedHtml(version()), seconds) +
+               "</head><body><main><h1>Figures</h1><p>edgewise {}; {} of {} figures, made in {:.0f} s</p>\n",
+               compare::kReportStyle, escapedHtml(version()), there, figureRegistry().size(), seconds) +
            cardTable(
                "<th>figure</th><th>of</th><th style='text-align:left'>what</th><th "
                "style='text-align:left'>command</th><th>seconds</th>",

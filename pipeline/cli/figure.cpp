@@ -77,18 +77,25 @@ MadeFigure makeFigure(const Figure& figure, const figures::FigureSource& source,
 }
 
 /// Those that were asked for, and those that lie there from before.
-std::vector<MadeFigure> withOlder(std::vector<MadeFigure> made, const figures::FigureSource& source,
+std::vector<MadeFigure> withOlder(const std::vector<MadeFigure>& made, const figures::FigureSource& source,
                                   const ResultFolder& folder) {
     std::vector<MadeFigure> all;
     for (const Figure& figure : figures::figureRegistry()) {
         const auto fresh = std::ranges::find(made, &figure, &MadeFigure::figure);
         if (fresh != made.end())
-            all.push_back(std::move(*fresh));
+            all.push_back(*fresh);
         else if (const auto stamp = figures::readStamp(folder / figure.name))
             all.push_back({&figure, figure.name + "/" + stamp->page, "", stamp->claims, stamp->seconds,
                            stamp->source.quick, true, stamp->source.program == source.program});
     }
     return all;
+}
+
+void writeIndex(const std::vector<MadeFigure>& made, const figures::FigureSource& source,
+                const ResultFolder& folder) {
+    const std::vector<MadeFigure> all = withOlder(made, source, folder);
+    writeAtomically(folder / "claims.csv", figures::indexCsv(all));
+    writeAtomically(folder / "index.html", figures::indexHtml(all));
 }
 
 void makeFigures(const FigureArguments& arguments) {
@@ -101,12 +108,10 @@ void makeFigures(const FigureArguments& arguments) {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             FigureProgress progress(bar, *chosen[i], i, chosen.size());
             made.push_back(makeFigure(*chosen[i], source, folder, progress));
+            writeIndex(made, source, folder);  // a run of hours that is interrupted has one, too
         }
     }
     const bool failed = std::ranges::any_of(made, [](const MadeFigure& one) { return one.page.empty(); });
-    const std::vector<MadeFigure> all = withOlder(std::move(made), source, folder);
-    writeAtomically(folder / "claims.csv", figures::indexCsv(all));
-    writeAtomically(folder / "index.html", figures::indexHtml(all));
     if (failed) throw ProblemList({}, 1);  // said when it happened
     if (!arguments.quiet) fmt::print("{}\n", (folder / "index.html").string());
 }

@@ -258,6 +258,17 @@ TEST(FigureCommand, ASecondRunMakesWhatChanged) {
     EXPECT_NE(page.find("samples gathered in vain"), std::string::npos);
 }
 
+TEST(FigureCommand, OneThatIsInterruptedHasAnIndexOfWhatIsMade) {
+    const TemporaryFolder folder;
+    // performance takes minutes, nsaa-1 a moment
+    const ProgramRun run = runProgram({"figure", "nsaa-1", "performance", "-o", "out"}, folder.path(), 5000);
+    EXPECT_EQ(run.status, 130);
+    const std::string page = readFile(folder.path() / "out" / "index.html");
+    EXPECT_NE(page.find("1 of "), std::string::npos);
+    EXPECT_NE(page.find("href='nsaa-1/report.html'"), std::string::npos);
+    EXPECT_EQ(page.find("href='performance/report.html'"), std::string::npos);
+}
+
 TEST(FigureCommand, OneThatFailsSaysSoAndOthersGoOn) {
     const TemporaryFolder folder;
     // nsaa-2 has stages dumped there
