@@ -11,6 +11,7 @@
 #include "paper_figures/line_plot.h"
 #include "paper_figures/page_parts.h"
 #include "pipeline/plot_colors.h"
+#include "pipeline/plot_legend.h"
 
 namespace edgewise::figures {
 namespace {
@@ -119,10 +120,11 @@ FigurePlot groupsPlot(const ConeMarch& march) {
         drawing.arrow(panel.at(sample), panel.at(sample + 0.55 * normalOn(field, sample)), kNormal);
         drawing.circle(panel.at(sample), 5,
                        fmt::format("fill='#fff' stroke='{}' stroke-width='2.5'", kGroup));
-        drawing.text(panel.at(kAlong.at(one.group.entry)) + glm::dvec2(-4, 60),
-                     fmt::format("g{}{}, omega {:.2f}", i + 1, one.group.hard ? ", hard" : "",
-                                 std::min(1.0, 0.5 * (1.0 - one.group.least))),
-                     "font-size='11'");
+        const std::string name = fmt::format("g{}{}, omega {:.2f}", i + 1, one.group.hard ? ", hard" : "",
+                                             std::min(1.0, 0.5 * (1.0 - one.group.least)));
+        glm::dvec2 at = panel.at(kAlong.at(one.group.entry)) + glm::dvec2(-4, 60);
+        at.x = std::min(at.x, panel.corner.x + panel.size.x - nameWidth(name.size()));
+        drawing.text(at, name, "font-size='11'");
     }
     drawing.endClip();
     drawing.rectangle(panel.corner, panel.size, "fill='none' stroke='#999'");

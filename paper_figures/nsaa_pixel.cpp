@@ -142,7 +142,7 @@ std::string drawn(const std::vector<PixelShare>& shares) {
                  fmt::format("{:.0f} of {} = {:.4f}", kDrawnSamples * by_samples, kDrawnSamples, by_samples),
                  "font-size='15'");
     drawing.text({400, 412},
-                 fmt::format("gaussian, R 2: {:.8f}; box of the pixel: {:.8f}", weightOf("nsaa", "gaussian"),
+                 fmt::format("gaussian, R 2: {:.6f}; the pixel's box: {:.6f}", weightOf("nsaa", "gaussian"),
                              weightOf("nsaa", "box")),
                  "font-size='13'");
     return drawing.svg();

@@ -11,7 +11,7 @@
 namespace edgewise::figures {
 namespace {
 
-constexpr double kCellWidth = 82, kCellHeight = 22, kLeastLeft = 150, kTop = 26, kMargin = 10;
+constexpr double kLeastCellWidth = 82, kCellHeight = 22, kLeastLeft = 150, kTop = 26, kMargin = 10;
 constexpr double kGap = 8;           ///< between a row's name and its cells
 constexpr double kLeastWidth = 760;  ///< that texts are as large as in other plots
 constexpr double kLightText = 0.6;   ///< from this shade on
@@ -23,24 +23,25 @@ std::string fillOf(const GridCell& cell) {
     return fmt::format("#{:02x}{:02x}{:02x}", mixed(20), mixed(80), mixed(150));
 }
 
-/// Where the first column begins: the longest name of a row has room before it.
-double leftOf(const ValueGrid& grid) {
+double widthOf(const std::vector<std::string>& names) {
     std::size_t longest = 0;
-    for (const std::string& name : grid.rows) longest = std::max(longest, name.size());
-    return std::max(kLeastLeft, nameWidth(longest) + kGap);
+    for (const std::string& name : names) longest = std::max(longest, name.size());
+    return nameWidth(longest);
 }
 
 }  // namespace
 
 std::string valueGridSvg(const ValueGrid& grid) {
-    const auto cornerOf = [left = leftOf(grid)](std::size_t row, std::size_t column) {
-        return glm::dvec2(left + kCellWidth * static_cast<double>(column),
+    const double left = std::max(kLeastLeft, widthOf(grid.rows) + kGap),
+                 cell_width = std::max(kLeastCellWidth, widthOf(grid.columns));
+    const auto cornerOf = [&](std::size_t row, std::size_t column) {
+        return glm::dvec2(left + cell_width * static_cast<double>(column),
                           kTop + kCellHeight * static_cast<double>(row));
     };
     const glm::dvec2 end = cornerOf(grid.rows.size(), grid.columns.size());
     Drawing drawing(std::max(end.x + kMargin, kLeastWidth), end.y + kMargin, grid.label);
     for (std::size_t i = 0; i < grid.columns.size(); ++i)
-        drawing.text(cornerOf(0, i) + glm::dvec2(kCellWidth / 2, -8), grid.columns[i],
+        drawing.text(cornerOf(0, i) + glm::dvec2(cell_width / 2, -8), grid.columns[i],
                      "text-anchor='middle' font-size='11'");
     for (std::size_t j = 0; j < grid.rows.size(); ++j) {
         drawing.text(cornerOf(j, 0) + glm::dvec2(-kGap, 15), grid.rows[j],
@@ -48,9 +49,9 @@ std::string valueGridSvg(const ValueGrid& grid) {
         for (std::size_t i = 0; i < grid.columns.size(); ++i) {
             const GridCell& cell = grid.cells.at(j * grid.columns.size() + i);
             if (cell.text.empty()) continue;
-            drawing.rectangle(cornerOf(j, i), {kCellWidth - 1, kCellHeight - 1},
+            drawing.rectangle(cornerOf(j, i), {cell_width - 1, kCellHeight - 1},
                               fmt::format("fill='{}'", fillOf(cell)));
-            drawing.text(cornerOf(j, i) + glm::dvec2(kCellWidth / 2, 15), cell.text,
+            drawing.text(cornerOf(j, i) + glm::dvec2(cell_width / 2, 15), cell.text,
                          fmt::format("text-anchor='middle' font-size='11' fill='{}'",
                                      cell.alarm || cell.shade > kLightText ? "#fff" : "#222"));
         }
