@@ -133,9 +133,8 @@ class Canvas {
 }  // namespace
 
 std::string linePlotSvg(const LinePlot& plot) {
-    std::size_t longest = kLeastLetters;
-    for (const PlotCurve& one : plot.curves) longest = std::max(longest, one.name.size());
-    const double width = kLeft + kInnerWidth + kLegendLeft + nameWidth(longest);
+    const double width =
+        kLeft + kInnerWidth + kLegendLeft + widthOfLongest(plot.curves, kLeastLetters, &PlotCurve::name);
     const Canvas canvas(plot);
     std::string out = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "

@@ -23,17 +23,11 @@ std::string fillOf(const GridCell& cell) {
     return fmt::format("#{:02x}{:02x}{:02x}", mixed(20), mixed(80), mixed(150));
 }
 
-double widthOf(const std::vector<std::string>& names) {
-    std::size_t longest = 0;
-    for (const std::string& name : names) longest = std::max(longest, name.size());
-    return nameWidth(longest);
-}
-
 }  // namespace
 
 std::string valueGridSvg(const ValueGrid& grid) {
-    const double left = std::max(kLeastLeft, widthOf(grid.rows) + kGap),
-                 cell_width = std::max(kLeastCellWidth, widthOf(grid.columns));
+    const double left = std::max(kLeastLeft, widthOfLongest(grid.rows, 0) + kGap),
+                 cell_width = std::max(kLeastCellWidth, widthOfLongest(grid.columns, 0));
     const auto cornerOf = [&](std::size_t row, std::size_t column) {
         return glm::dvec2(left + cell_width * static_cast<double>(column),
                           kTop + kCellHeight * static_cast<double>(row));

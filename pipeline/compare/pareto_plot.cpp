@@ -124,13 +124,6 @@ class Plot {
     Axis x_, y_;
 };
 
-/// Of the whole plot: the longest name of the legend ends within it.
-double widthOf(const Families& families) {
-    std::size_t longest = kLeastLetters;
-    for (const auto& [name, points] : families) longest = std::max(longest, name.size());
-    return kLeft + kInnerWidth + kLegendLeft + nameWidth(longest);
-}
-
 std::string seriesSvg(const Plot& plot, const std::string& name, const std::vector<Point>& points,
                       std::size_t index) {
     const char* color = kPlotColors[index % kPlotColors.size()];
@@ -155,12 +148,14 @@ std::string seriesSvg(const Plot& plot, const std::string& name, const std::vect
 std::string paretoSvg(const Comparison& comparison) {
     const Families families = familiesOf(comparison);
     const Plot plot(families);
+    const double width = kLeft + kInnerWidth + kLegendLeft +
+                         widthOfLongest(families, kLeastLetters, &Families::value_type::first);
     std::string out = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
         "font-family='sans-serif' font-size='12' fill='#333' role='img' aria-label='error against seconds'>"
         "<rect width='{0}' height='{1}' fill='#fff'/><clipPath id='inside'><rect x='{2}' y='{3}' width='{4}' "
         "height='{5}'/></clipPath>",
-        widthOf(families), kHeight, kLeft, kTop, kInnerWidth, kInnerHeight);
+        width, kHeight, kLeft, kTop, kInnerWidth, kInnerHeight);
     out += plot.axes() + plot.slope(families);
     std::size_t index = 0;
     for (const auto& [name, points] : families) out += seriesSvg(plot, name, points, index++);
